@@ -1,0 +1,1 @@
+# Installation: the program, and the package that find_package(Penumbra CONFIG) finds.
