@@ -3,8 +3,8 @@
 // The rest of the program is compiled for x86-64-v3 (AVX2, FMA, BMI ...), static constructors included; on an older
 // processor the first of those instructions would end it with a bare "illegal instruction". This file alone is compiled
 // for any x86-64 (see CMakeLists.txt) and runs from .preinit_array: after the dynamic linker's work, before every
-// constructor of the program and of its libraries. At that point neither iostreams nor, for certain, stdio are up, so it
-// uses system calls only, and no inline function of a library header, of which the linker might keep a copy that was
+// constructor of the program and of its libraries. At that point neither iostreams nor, for certain, stdio are up, so
+// it uses system calls only, and no inline function of a library header, of which the linker might keep a copy that was
 // compiled for AVX2 elsewhere.
 //
 // Thread safety: runs once, before there are threads.
