@@ -14,9 +14,12 @@ std::size_t Parameter::count() const {
     return std::visit([](const auto& list) { return list.size(); }, values);
 }
 
+bool ParameterSet::wasAsked(std::string_view type, std::string_view name) const {
+    return std::any_of(asked_.begin(), asked_.end(), [&](const Asked& a) { return a.name == name && a.type == type; });
+}
+
 void ParameterSet::noteAsked(std::string_view type, std::string_view name) const {
-    const auto same = [&](const Asked& a) { return a.name == name && a.type == type; };
-    if (std::none_of(asked_.begin(), asked_.end(), same)) asked_.push_back({std::string(type), std::string(name)});
+    if (!wasAsked(type, name)) asked_.push_back({std::string(type), std::string(name)});
 }
 
 const Parameter* ParameterSet::find(std::string_view type, std::string_view name) const {
@@ -86,13 +89,16 @@ std::string ParameterSet::unusedMessage(const Parameter& p, std::string_view obj
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     const std::string start = "parameter " + quoted(p.type + " " + p.name) + " of " + std::string(object);
-    if (!types.empty() && types.find(p.type) == std::string::npos) return start + " is ignored: it has to be of type " + types;
+    if (!types.empty()) return start + " is ignored: it has to be of type " + types;
     return start + " is unknown" + suggestion(p.name, names);
 }
 
 void ParameterSet::warnUnused(std::span<const std::string> files, std::string_view object, Warnings& warnings) const {
-    for (const Parameter& p : list_)
-        if (!p.used && !p.inherited) warnings.add(formatPosition(files, p.where) + ": " + unusedMessage(p, object));
+    for (const Parameter& p : list_) {
+        const bool shadowed = wasAsked(p.type, p.name);  // a later twin was found in its place
+        if (!p.used && !p.inherited && !shadowed)
+            warnings.add(formatPosition(files, p.where) + ": " + unusedMessage(p, object));
+    }
 }
 
 void ParameterSet::markAllUsed() const {

@@ -71,6 +71,7 @@ private:
         std::string type, name;
     };
     const Parameter* findSingle(std::string_view type, std::string_view name) const;
+    bool wasAsked(std::string_view type, std::string_view name) const;
     void noteAsked(std::string_view type, std::string_view name) const;
     std::string unusedMessage(const Parameter& p, std::string_view object) const;
 
