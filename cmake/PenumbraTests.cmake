@@ -1,8 +1,6 @@
 # The tests: every tests/*.cpp goes into one GoogleTest program, penumbra_tests, and every suite of it is one entry of
 # ctest. (One entry a test would start the program, with all its libraries, a thousand times.)
 
-find_package(GTest REQUIRED CONFIG)
-
 file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/*.cpp")
 if(NOT sources)
     return()

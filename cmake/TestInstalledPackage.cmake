@@ -1,0 +1,21 @@
+# Installs the build in BINARY_DIR into a fresh prefix, builds the program in CONSUMER against it, and runs it.
+
+function(run)
+    execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE status)
+    if(NOT status EQUAL 0)
+        message(FATAL_ERROR "${ARGN} ended with ${status}:\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+set(folder "${BINARY_DIR}/installed_package")
+file(REMOVE_RECURSE "${folder}")
+run("${CMAKE_COMMAND}" --install "${BINARY_DIR}" --prefix "${folder}/prefix")
+run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${folder}/build" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+    "-DCMAKE_PREFIX_PATH=${folder}/prefix" "-DPENUMBRA_VERSION=${VERSION}" "-DPENUMBRA_HEADERS=${HEADERS}")
+run("${CMAKE_COMMAND}" --build "${folder}/build")
+run("${folder}/build/consumer")
+if(NOT output MATCHES "Penumbra ${VERSION}")
+    message(FATAL_ERROR "the consumer printed: ${output}")
+endif()
+file(REMOVE_RECURSE "${folder}")
