@@ -9,11 +9,16 @@
 #pragma once
 
 #include "core/color/spectrum.h"
-#include "core/color/spectrum_parameter.h"
 
 namespace penumbra {
 
+/// The complex index of a conductor, one value per channel.
+struct ConductorIndex {
+    Rgb eta, k;
+};
+
 /// Unpolarised Fresnel reflectance at the border of vacuum and a conductor of index eta + i k (Born & Wolf, 14.2).
+/// Where both are 0 (a spectrum outside the range of its file) there is no reflection.
 double conductorFresnel(double cosTheta, double eta, double k);
 
 ConductorIndex fitConductor(const SampledSpectrum& eta, const SampledSpectrum& k, const ColorSpace& space);

@@ -21,9 +21,9 @@ struct FilmSensor {
 /// White balance for a scene lit by daylight of that temperature, in the RGB of the space.
 Matrix3 whiteBalanceMatrix(double kelvin, const ColorSpace& space);
 
-/// Reads sensor, iso and whitebalance from the film's parameters. `where` begins every message ("scene.pbrt:3:1: film").
-/// An unknown sensor warns, naming the nearest, and counts as cie1931. Throws Error(BadData) on values out of range.
+/// Reads sensor, iso and whitebalance from the film's parameters. An unknown sensor warns, naming the nearest, and counts as
+/// cie1931. Throws Error(BadData), with the place in `files`, on values out of range. REQUIRES: shutterOpen < shutterClose.
 FilmSensor readFilmSensor(const ParameterSet& film, double shutterOpen, double shutterClose, const ColorSpace& space,
-                          std::string_view where, Warnings& warnings);
+                          std::span<const std::string> files, Warnings& warnings);
 
 }  // namespace penumbra

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "core/base/parameters.h"
+#include "core/color/conductor_fit.h"
 #include "core/color/spectrum.h"
 
 #include <functional>
@@ -35,11 +36,6 @@ Rgb readSpectrumParameter(const Parameter& p, SpectrumRole role, const SpectrumC
 /// The index of refraction of a dielectric given as float, rgb or spectrum: the number; the mean of the three; the mean of the
 /// curve weighted by ybar times D65. No dispersion. 0 counts as 1, as the format has it.
 float readIndexOfRefraction(const Parameter& p, const SpectrumContext& context, std::string_view owner);
-
-/// The complex index of a conductor, one value per channel.
-struct ConductorIndex {
-    Rgb eta, k;
-};
 
 /// From the parameters eta and k, each null where absent (then copper's). Two rgb values are taken as they are. Two spectra
 /// become the three (eta, k) whose Fresnel curves come nearest to the colour of the spectral curve at every angle
