@@ -144,6 +144,7 @@ std::vector<Include> includesOfProject() {
     const fs::path root(PENUMBRA_SOURCE_DIR);
     std::vector<Include> result;
     for (const char* folder : kFolders) {
+        if (!fs::exists(root / folder)) continue;
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / folder)) {
             if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
             std::ifstream text(entry.path());
