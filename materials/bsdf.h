@@ -7,19 +7,23 @@
 //
 // A material type is a plain struct of 32-bit words (one row of a table, read through Records) with
 //   static constexpr PluginInfo kInfo;
+//   static constexpr bool kPassThrough;          // true: a mere border of media, which rays cross as if it were not there
 //   template <class F> using Bsdf = ...;         // the closure it builds
-//   static M make(MaterialInput&);               // from parameters, at scene build
+//   static M make(MaterialInput&);               // from parameters, at scene build (cold)
 //   template <class F> static Bsdf<F> bsdf(const Records<F, M>&, const ShadingContext<F>&);
 // and a closure has
 //   BsdfEval<F> evaluate(const Vec3<F>& wo, const Vec3<F>& wi) const;   // delta lobes give 0
 //   BsdfSample<F> sample(const Vec3<F>& wo, F uLobe, const Vec2<F>& u) const;
 //   Mask<F> smoothOnly() const;                  // true: nothing but delta lobes, so light sampling is pointless
 //   Spectrum<F> albedo(const Vec3<F>& wo) const; // estimate of the directional reflectance, for AOVs
-// See materials/registry.h.
+// The concepts at the end of materials/registry.h check this.
+//
+// Whatever unit vectors come in (wo.z = 0, both directions in the surface), results are finite and not negative. A lane
+// that is not valid carries unspecified, but finite, values.
 #pragma once
 
-#include "core/math/vector.h"
 #include "core/math/spectrum.h"
+#include "core/math/vector.h"
 
 namespace penumbra {
 

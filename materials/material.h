@@ -11,6 +11,8 @@
 #include "core/math/records.h"
 #include "materials/bsdf.h"
 
+#include <map>
+
 namespace penumbra {
 
 /// A colour that is constant or comes from a texture. Read it with ShadingContext::spectrum.
@@ -23,6 +25,27 @@ struct SpectrumInput {
 struct ScalarInput {
     float constant = 0.f;
     std::uint32_t texture = kNoTexture;
+};
+
+/// The numbers that closures look up, of all materials in one array (ShadingContext::tables); a material keeps the offset
+/// of its block. Materials that would fill equal blocks share one.
+/// Thread safety: none while blocks are added; immutable afterwards.
+class MaterialTables {
+public:
+    /// Offset of the block of that key (whatever decides the block's content, the kind of table first). Where there is none
+    /// yet, fill(std::vector<float>&) appends it.
+    template <class Fill>
+    std::uint32_t block(const std::vector<float>& key, Fill&& fill) {
+        const auto [place, isNew] = offsets_.try_emplace(key, std::uint32_t(numbers_.size()));
+        if (isNew) fill(numbers_);
+        return place->second;
+    }
+    const float* data() const { return numbers_.data(); }
+    std::size_t size() const { return numbers_.size(); }
+
+private:
+    std::vector<float> numbers_;
+    std::map<std::vector<float>, std::uint32_t> offsets_;
 };
 
 /// Parameters of one material, with names of textures resolved and colours in the film's space.
@@ -42,8 +65,7 @@ public:
     virtual const ParameterSet& parameters() const = 0;
     virtual void warn(const std::string& text) = 0;                 ///< with the material's position before it
     [[noreturn]] virtual void fail(const std::string& text) = 0;    ///< Error(BadData), likewise
-    /// The table that the material's closures read through ShadingContext::tables; a material appends and keeps the offset.
-    virtual std::vector<float>& tables() = 0;
+    virtual MaterialTables& tables() = 0;
 };
 
 template <class F>
@@ -72,6 +94,13 @@ struct ShadingContext {
         const Mask<F> textured = texture != UInt<F>(kNoTexture);
         if (none(textured)) return out;
         return select(textured, textures.spectrum<F>(texture, at), out);
+    }
+
+    /// The same, clamped to [0, 1]: images may hold anything, reflectances may not.
+    template <class M>
+    Spectrum<F> albedo(const Records<F, M>& m, SpectrumInput M::*input) const {
+        const Spectrum<F> s = spectrum(m, input);
+        return {clamp(s.r, F(0.f), F(1.f)), clamp(s.g, F(0.f), F(1.f)), clamp(s.b, F(0.f), F(1.f))};
     }
 
     template <class M>
