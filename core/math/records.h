@@ -33,6 +33,12 @@ public:
 
     F operator()(float T::*field) const { return read<F>(&(base_[0].*field), base_[first_].*field); }
     UInt<F> operator()(std::uint32_t T::*field) const { return read<UInt<F>>(&(base_[0].*field), base_[first_].*field); }
+    /// An enumeration over std::uint32_t, as its number.
+    template <class E>
+        requires(std::is_enum_v<E> && sizeof(E) == 4)
+    UInt<F> operator()(E T::*field) const {
+        return read<UInt<F>>(reinterpret_cast<const std::uint32_t*>(&(base_[0].*field)), std::uint32_t(base_[first_].*field));
+    }
     Vec3<F> operator()(Vec3<float> T::*field) const {
         const auto& f0 = base_[0].*field;
         const auto& f = base_[first_].*field;

@@ -1,0 +1,87 @@
+// Geometry: everything rays can meet, in tables that both Embree and the lanes read.
+//
+// One array of positions and one of indices serve all meshes (Embree shares them, nothing is copied). A shape is a mesh or a
+// quadric with a material, lights and media; geometry number s of the top scene is shape s. Shapes that move, and objects
+// that are instanced, stand in groups of shapes of their own and are met through an instance: hit.instance names it.
+// Shapes outside instances are in world space (meshes baked, quadrics by matrix).
+//
+// Invariants after finish(): positions and all per-vertex arrays have 16 readable bytes behind them; indices are global
+// vertex numbers; immutable. Thread safety: immutable after finish().
+#pragma once
+
+#include "core/geometry/mesh.h"
+#include "core/math/affine.h"
+#include "core/math/records.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace penumbra {
+
+inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
+
+enum class ShapeKind : std::uint32_t { Mesh, Sphere, Disk };
+
+/// Bits of ShapeRecord::flags.
+inline constexpr std::uint32_t kShapeFlipNormal = 1;    ///< the geometric normal is the negative of what the shape itself gives
+inline constexpr std::uint32_t kShapeNeedsUv = 2;       ///< some texture of the material looks at uv
+inline constexpr std::uint32_t kShapeNeedsTangent = 4;  ///< the material is anisotropic (or will be bumped): the frame's x matters
+inline constexpr std::uint32_t kShapeInvisible = 8;     ///< in no acceleration structure (a light with alpha 0)
+inline constexpr std::uint32_t kShapeMediumBoundary = 16;
+
+struct ShapeRecord {
+    ShapeKind kind = ShapeKind::Mesh;
+    std::uint32_t flags = 0;
+    std::uint32_t material = 0;
+    std::uint32_t first = 0;               ///< mesh: first triangle; quadric: row of quadrics
+    std::uint32_t count = 0;               ///< triangles, or 1
+    std::uint32_t light = kNone;           ///< light of primitive 0
+    std::uint32_t lightStride = 0;         ///< 1: every triangle its own light; 0: one light for the shape
+    std::uint32_t mediumInside = kNone, mediumOutside = kNone;   ///< medium rows where kShapeMediumBoundary
+    // What to add to a vertex number to get its row in normals, uvs, tangents; kNone: the mesh has none.
+    std::uint32_t normalShift = kNone, uvShift = kNone, tangentShift = kNone;
+};
+
+/// A (part of a) sphere or an annulus, in object space: see PBRT-v4's sphere and disk.
+struct QuadricRecord {
+    AffineRecord worldFromObject, objectFromWorld;
+    float radius = 1, innerRadius = 0;
+    float zMin = -1, zMax = 1;             ///< disk: zMin = height
+    float phiMax = kTwoPi;
+    float thetaMin = 0, thetaMax = kPi;    ///< sphere: polar angles (from +z) of zMax and zMin
+    ShapeKind kind = ShapeKind::Sphere;
+};
+
+/// One placed group of shapes, at top level.
+struct InstanceRecord {
+    std::uint32_t firstShape = 0;          ///< of its group; hit.geometry counts from here
+    std::uint32_t firstMatrix = 0, segments = 0;   ///< into `matrices`: affineAt
+    std::uint32_t group = 0;
+};
+
+/// A run of shapes with an acceleration structure of its own. Group 0 is the world.
+struct ShapeGroup {
+    std::uint32_t firstShape = 0, shapeCount = 0;
+};
+
+class Geometry {
+public:
+    std::vector<float> positions, normals, uvs, tangents;
+    std::vector<std::uint32_t> indices;
+    std::vector<ShapeRecord> shapes;
+    std::vector<QuadricRecord> quadrics;
+    std::vector<ShapeGroup> groups = std::vector<ShapeGroup>(1);   ///< never empty
+    std::vector<InstanceRecord> instances;
+    std::vector<AffineRecord> matrices;
+
+    /// Appends the mesh's arrays and returns a record with kind, first, count and the shifts filled in. Takes the mesh apart.
+    ShapeRecord addMesh(TriangleMesh&& mesh);
+    ShapeRecord addQuadric(const QuadricRecord& q);
+    /// Pads the arrays. Call once, last.
+    void finish();
+
+    /// Bytes held in all tables.
+    std::size_t memoryBytes() const;
+};
+
+}  // namespace penumbra

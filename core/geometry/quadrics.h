@@ -1,0 +1,96 @@
+// Spheres and disks over lanes: intersection (called back by Embree with eight rays) and the surface at a hit.
+//
+// Precision: the near root is c / q with c = (|o| - r)(|o| + r), so a ray that starts just outside the surface never meets
+// it again by rounding; points of the sphere are projected back onto it.
+#pragma once
+
+#include "core/geometry/geometry.h"
+
+namespace penumbra {
+
+template <class F>
+struct QuadricHit {
+    F t;
+    Mask<F> hit;
+};
+
+/// Whether the object-space point lies in the part of the quadric that exists.
+template <class F>
+Mask<F> insideQuadricPart(const QuadricRecord& q, const Vec3<F>& p) {
+    Mask<F> in = Mask<F>(true);
+    if (q.kind == ShapeKind::Sphere) {
+        if (q.zMin > -q.radius) in = in & (p.z >= F(q.zMin));
+        if (q.zMax < q.radius) in = in & (p.z <= F(q.zMax));
+    } else {
+        const F d2 = p.x * p.x + p.y * p.y;
+        in = (d2 <= F(q.radius * q.radius)) & (d2 >= F(q.innerRadius * q.innerRadius));
+    }
+    if (q.phiMax < kTwoPi) {
+        F phi = atan2(p.y, p.x);
+        phi = select(phi < F(0.f), phi + F(kTwoPi), phi);
+        in = in & (phi <= F(q.phiMax));
+    }
+    return in;
+}
+
+/// Nearest hit with near < t < far. `o`, `d` in object space; d need not be a unit vector.
+template <class F>
+QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const Vec3<F>& d, F near, F far) {
+    if (q.kind == ShapeKind::Disk) {
+        const F t = (F(q.zMin) - o.z) / d.z;   // a parallel ray gives inf or NaN, which no comparison passes
+        const Vec3<F> p = {o.x + t * d.x, o.y + t * d.y, F(q.zMin)};
+        return {t, (t > near) & (t < far) & insideQuadricPart(q, p)};
+    }
+    const F r = F(q.radius);
+    const F a = dot(d, d), b = dot(o, d);
+    // Distance of the line from the centre, by the point of closest approach: no cancellation for small or far spheres
+    // (Haines et al. 2019, Ray Tracing Gems, chapter 7).
+    const Vec3<F> closest = o - d * (b / a);
+    const F discriminant = (r * r - dot(closest, closest)) * a;
+    const F root = safeSqrt(discriminant);
+    const F distance = length(o);
+    const F c = (distance - r) * (distance + r);
+    const F s = -(b + copySign(root, b));
+    const F t0 = s / a, t1 = c / s;
+    const F first = min(t0, t1), second = max(t0, t1);
+    const Mask<F> meets = discriminant >= F(0.f);
+    const Mask<F> firstOk = meets & (first > near) & (first < far) & insideQuadricPart(q, o + d * first);
+    const Mask<F> secondOk = meets & (second > near) & (second < far) & insideQuadricPart(q, o + d * second);
+    return {select(firstOk, first, second), firstOk | secondOk};
+}
+
+/// The surface at a hit, in object space.
+template <class F>
+struct QuadricPoint {
+    Vec3<F> p, error, normal, tangent;   ///< the normal points outwards (+z for disks); unit
+    Vec2<F> uv;
+};
+
+template <class F>
+QuadricPoint<F> quadricPoint(const Records<F, QuadricRecord>& q, const Vec3<F>& met) {
+    const Mask<F> disk = q(&QuadricRecord::kind) == UInt<F>(std::uint32_t(ShapeKind::Disk));
+    const F r = q(&QuadricRecord::radius);
+    QuadricPoint<F> out;
+    const F scale = r / length(met);
+    const Vec3<F> onSphere = met * scale;
+    const Vec3<F> onDisk = {met.x, met.y, q(&QuadricRecord::zMin)};
+    out.p = select(disk, onDisk, onSphere);
+    const F size = F(16 * 0x1p-24f) * r;
+    out.error = {size, size, size};
+    out.normal = select(disk, Vec3<F>{F(0.f), F(0.f), F(1.f)}, onSphere * (F(1.f) / r));
+    F phi = atan2(out.p.y, out.p.x);
+    phi = select(phi < F(0.f), phi + F(kTwoPi), phi);
+    const F u = phi / q(&QuadricRecord::phiMax);
+    const F rho = sqrt(out.p.x * out.p.x + out.p.y * out.p.y);
+    const F inner = q(&QuadricRecord::innerRadius);
+    const F theta = acos(out.p.z / r);
+    const F thetaTop = q(&QuadricRecord::thetaMin), thetaBottom = q(&QuadricRecord::thetaMax);
+    const F v = select(disk, (r - rho) / (r - inner), (theta - thetaBottom) / (thetaTop - thetaBottom));
+    out.uv = {u, v};
+    // dp/du is along phi; at the poles any direction will do.
+    const Mask<F> pole = rho < F(1e-20f);
+    out.tangent = select(pole, Vec3<F>{F(1.f), F(0.f), F(0.f)}, Vec3<F>{-out.p.y, out.p.x, F(0.f)});
+    return out;
+}
+
+}  // namespace penumbra

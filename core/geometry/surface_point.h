@@ -1,0 +1,231 @@
+// SurfacePoint: the geometry of a hit, built once, for the final hit only.
+//
+// Conventions: world space. `ng` is the unit geometric normal on the side that the shape's orientation calls outside (it
+// decides emission, media and what "outside a dielectric" means); the shading frame's normal lies in its hemisphere.
+// `error` bounds the rounding error of p per component; rays leave from offsetOrigin(), which is beyond that bound.
+#pragma once
+
+#include "core/geometry/geometry.h"
+#include "core/geometry/quadrics.h"
+
+namespace penumbra {
+
+template <class F>
+struct Hit {
+    UInt<F> geometry, primitive, instance;
+    F u, v, t;
+};
+
+template <class F>
+struct SurfacePoint {
+    Vec3<F> p, error, ng;
+    Frame<F> frame;
+    Vec2<F> uv;
+    F uvPerLength;       ///< how far uv moves for a step of unit length, to scale footprints
+    UInt<F> shape;       ///< row of Geometry::shapes
+    UInt<F> primitive;   ///< triangle of the mesh
+};
+
+/// Where a ray that leaves p in the direction w has to start so that it neither meets the surface again nor leaks through.
+template <class F>
+Vec3<F> offsetOrigin(const Vec3<F>& p, const Vec3<F>& error, const Vec3<F>& ng, const Vec3<F>& w) {
+    const F d = dot(abs(ng), error);
+    const Vec3<F> moved = p + flipSign(dot(w, ng) < F(0.f), ng) * d;
+    return moved;
+}
+
+namespace detail {
+
+/// The row of shapes that a hit belongs to.
+template <class F>
+UInt<F> shapeOf(const Geometry& g, const Hit<F>& hit) {
+    const Mask<F> instanced = hit.instance != UInt<F>(kNone);
+    if (none(instanced)) return hit.geometry;
+    const Records<F, InstanceRecord> r(g.instances.data(), select(instanced, hit.instance, UInt<F>(0u)));
+    return select(instanced, r(&InstanceRecord::firstShape) + hit.geometry, hit.geometry);
+}
+
+template <class F>
+Vec3<F> loadVertex(const std::vector<float>& table, const UInt<F>& row) {
+    F r[4];
+    loadRows4(table.data(), row * UInt<F>(3u), r);
+    return {r[0], r[1], r[2]};
+}
+
+/// What a mesh or a quadric gives in its own space.
+template <class F>
+struct LocalSurface {
+    Vec3<F> p, error, ng, ns, tangent;   ///< ng, ns not normalised
+    Vec2<F> uv;
+    F uvPerLength;
+};
+
+template <class F>
+LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& shape, const Hit<F>& hit, const Mask<F>& isMesh) {
+    LocalSurface<F> s;
+    // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
+    const UInt<F> triangle = select(isMesh, shape(&ShapeRecord::first) + hit.primitive, UInt<F>(0u));
+    F corner[4];
+    loadRows4(reinterpret_cast<const float*>(g.indices.data()), triangle * UInt<F>(3u), corner);
+    const UInt<F> i0 = floatBits(corner[0]), i1 = floatBits(corner[1]), i2 = floatBits(corner[2]);
+    const Vec3<F> p0 = loadVertex<F>(g.positions, i0), p1 = loadVertex<F>(g.positions, i1), p2 = loadVertex<F>(g.positions, i2);
+    const F b1 = hit.u, b2 = hit.v, b0 = (F(1.f) - b1) - b2;
+    s.p = p0 * b0 + p1 * b1 + p2 * b2;
+    // The plane that Embree intersected is known to a few roundings of the corners' coordinates.
+    const auto largest = [](F x, F y, F z) { return max(abs(x), max(abs(y), abs(z))) * F(12 * 0x1p-24f); };
+    s.error = {largest(p0.x, p1.x, p2.x), largest(p0.y, p1.y, p2.y), largest(p0.z, p1.z, p2.z)};
+    const Vec3<F> e1 = p1 - p0, e2 = p2 - p0;
+    const UInt<F> flags = shape(&ShapeRecord::flags);
+    const Mask<F> flip = (flags & UInt<F>(kShapeFlipNormal)) != UInt<F>(0u);
+    const Vec3<F> faceNormal = cross(e1, e2);
+    s.ng = flipSign(flip, faceNormal);
+    s.ns = s.ng;
+    const UInt<F> normalShift = shape(&ShapeRecord::normalShift);
+    const Mask<F> smooth = isMesh & (normalShift != UInt<F>(kNone));
+    if (any(smooth)) {
+        const UInt<F> shift = select(smooth, normalShift, UInt<F>(0u));
+        const auto normal = [&](const UInt<F>& i) { return loadVertex<F>(g.normals, select(smooth, i + shift, UInt<F>(0u))); };
+        const Vec3<F> n = normal(i0) * b0 + normal(i1) * b1 + normal(i2) * b2;
+        const Mask<F> usable = smooth & (dot(n, n) > F(0.f));
+        s.ns = select(usable, n, s.ns);
+        // The interpolated normal says which side is outside (PBRT-v4).
+        s.ng = flipSign(usable & (dot(n, s.ng) < F(0.f)), s.ng);
+    }
+    s.uv = {b1 + b2, b2};   // the corners of a mesh without uv are (0,0), (1,0), (1,1)
+    s.tangent = e1;
+    s.uvPerLength = F(0.f);
+    const Mask<F> needs = isMesh & ((flags & UInt<F>(kShapeNeedsUv | kShapeNeedsTangent)) != UInt<F>(0u));
+    if (any(needs)) {
+        const UInt<F> uvShift = shape(&ShapeRecord::uvShift);
+        const Mask<F> mapped = needs & (uvShift != UInt<F>(kNone));
+        Vec2<F> t0 = {F(0.f), F(0.f)}, t1 = {F(1.f), F(0.f)}, t2 = {F(1.f), F(1.f)};
+        if (any(mapped)) {
+            const auto uvOf = [&](const UInt<F>& i, Vec2<F>& t) {
+                F r[4];
+                loadRows4(g.uvs.data(), select(mapped, i + uvShift, UInt<F>(0u)) * UInt<F>(2u), r);
+                t = {select(mapped, r[0], t.x), select(mapped, r[1], t.y)};
+            };
+            uvOf(i0, t0);
+            uvOf(i1, t1);
+            uvOf(i2, t2);
+        }
+        s.uv = {t0.x * b0 + t1.x * b1 + t2.x * b2, t0.y * b0 + t1.y * b1 + t2.y * b2};
+        const Vec2<F> d1 = t1 - t0, d2 = t2 - t0;
+        const F determinant = d1.x * d2.y - d1.y * d2.x;
+        const Vec3<F> dpdu = flipSign(determinant < F(0.f), e1 * d2.y - e2 * d1.y);
+        s.tangent = select(abs(determinant) > F(1e-30f), dpdu, s.tangent);
+        s.uvPerLength = sqrt(abs(determinant) / max(length(faceNormal), F(1e-30f)));
+        const UInt<F> tangentShift = shape(&ShapeRecord::tangentShift);
+        const Mask<F> given = needs & (tangentShift != UInt<F>(kNone));
+        if (any(given)) {
+            const auto tangent = [&](const UInt<F>& i) {
+                return loadVertex<F>(g.tangents, select(given, i + tangentShift, UInt<F>(0u)));
+            };
+            s.tangent = select(given, tangent(i0) * b0 + tangent(i1) * b1 + tangent(i2) * b2, s.tangent);
+        }
+    }
+    return s;
+}
+
+template <class F>
+LocalSurface<F> quadricSurface(const Geometry& g, const Records<F, ShapeRecord>& shape, const Mask<F>& isQuadric,
+                               const Vec3<F>& met, Affine<F>& worldFromObject) {
+    // `met` is the hit in the space of the shape's group; the quadric's own matrix leads from its object space to that.
+    const UInt<F> row = select(isQuadric, shape(&ShapeRecord::first), UInt<F>(0u));
+    const Records<F, QuadricRecord> q(g.quadrics.data(), row);
+    const AffineRecord* table = &g.quadrics[0].worldFromObject;
+    constexpr std::uint32_t kStride = sizeof(QuadricRecord) / 4;
+    static_assert(sizeof(QuadricRecord) % 16 == 0);
+    const auto load = [&](std::uint32_t word) {
+        F r[3][4];
+        for (std::uint32_t k = 0; k < 3; ++k) loadRows4(table->m, row * UInt<F>(kStride) + UInt<F>(word + 4 * k), r[k]);
+        return Affine<F>{{r[0][0], r[1][0], r[2][0]}, {r[0][1], r[1][1], r[2][1]}, {r[0][2], r[1][2], r[2][2]},
+                         {r[0][3], r[1][3], r[2][3]}};
+    };
+    worldFromObject = load(0);
+    const Affine<F> objectFromWorld = load(12);
+    const QuadricPoint<F> point = quadricPoint(q, objectFromWorld.point(met));
+    const Mask<F> flip = (shape(&ShapeRecord::flags) & UInt<F>(kShapeFlipNormal)) != UInt<F>(0u);
+    LocalSurface<F> s;
+    s.p = worldFromObject.point(point.p);
+    s.error = worldFromObject.pointError(point.p, point.error);
+    s.ng = flipSign(flip, worldFromObject.normal(point.normal));
+    s.ns = s.ng;
+    s.tangent = worldFromObject.vector(point.tangent);
+    s.uv = point.uv;
+    s.uvPerLength = F(0.f);
+    return s;
+}
+
+}  // namespace detail
+
+/// `origin`, `direction`, `time` are those of the ray (world space). Every lane must hold a hit.
+template <class F>
+SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>& origin, const Vec3<F>& direction, F time) {
+    using namespace detail;
+    SurfacePoint<F> out;
+    out.shape = shapeOf(g, hit);
+    out.primitive = hit.primitive;
+    const Records<F, ShapeRecord> shape(g.shapes.data(), out.shape);
+    const Mask<F> instanced = hit.instance != UInt<F>(kNone);
+    Affine<F> place;
+    if (any(instanced)) {
+        const Records<F, InstanceRecord> instance(g.instances.data(), select(instanced, hit.instance, UInt<F>(0u)));
+        place = affineAt<F>(g.matrices.data(), instance(&InstanceRecord::firstMatrix), instance(&InstanceRecord::segments), time);
+    }
+
+    const Mask<F> isMesh = shape(&ShapeRecord::kind) == UInt<F>(std::uint32_t(ShapeKind::Mesh));
+    LocalSurface<F> s;
+    if (any(isMesh)) s = meshSurface(g, shape, hit, isMesh);
+    if (!all(isMesh)) {
+        Vec3<F> met = origin + direction * hit.t;
+        if (any(instanced)) {
+            // Into the space of the group: solve M x = met by Cramer's rule (the columns' cross products).
+            const Vec3<F> r = met - place.origin;
+            const Vec3<F> cx = cross(place.y, place.z), cy = cross(place.z, place.x), cz = cross(place.x, place.y);
+            const F inverse = F(1.f) / dot(place.x, cx);
+            met = select(instanced, Vec3<F>{dot(r, cx) * inverse, dot(r, cy) * inverse, dot(r, cz) * inverse}, met);
+        }
+        Affine<F> own;
+        const LocalSurface<F> q = quadricSurface(g, shape, !isMesh, met, own);
+        if (none(isMesh)) s = q;
+        else {
+            s.p = select(isMesh, s.p, q.p);
+            s.error = select(isMesh, s.error, q.error);
+            s.ng = select(isMesh, s.ng, q.ng);
+            s.ns = select(isMesh, s.ns, q.ns);
+            s.tangent = select(isMesh, s.tangent, q.tangent);
+            s.uv = {select(isMesh, s.uv.x, q.uv.x), select(isMesh, s.uv.y, q.uv.y)};
+            s.uvPerLength = select(isMesh, s.uvPerLength, q.uvPerLength);
+        }
+    }
+    if (any(instanced)) {
+        s.error = select(instanced, place.pointError(s.p, s.error), s.error);
+        s.p = select(instanced, place.point(s.p), s.p);
+        s.ng = select(instanced, place.normal(s.ng), s.ng);
+        s.ns = select(instanced, place.normal(s.ns), s.ns);
+        s.tangent = select(instanced, place.vector(s.tangent), s.tangent);
+    }
+    out.p = s.p;
+    out.error = s.error;
+    out.ng = normalize(s.ng);
+    Vec3<F> n = normalize(s.ns);
+    // A shading normal on the wrong side of the face (or a vanishing one) would turn the surface inside out.
+    n = flipSign(dot(n, out.ng) < F(0.f), n);
+    out.uv = s.uv;
+    out.uvPerLength = s.uvPerLength;
+
+    const Mask<F> needsTangent = (shape(&ShapeRecord::flags) & UInt<F>(kShapeNeedsTangent)) != UInt<F>(0u);
+    out.frame = Frame<F>::fromNormal(n);
+    if (any(needsTangent)) {
+        const Vec3<F> t = s.tangent - n * dot(n, s.tangent);
+        const F squared = dot(t, t);
+        const Mask<F> use = needsTangent & (squared > F(1e-30f));
+        const Vec3<F> x = t * (F(1.f) / sqrt(max(squared, F(1e-30f))));
+        out.frame.s = select(use, x, out.frame.s);
+        out.frame.t = select(use, cross(n, x), out.frame.t);
+    }
+    return out;
+}
+
+}  // namespace penumbra
