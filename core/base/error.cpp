@@ -8,7 +8,6 @@ namespace penumbra {
 
 namespace {
 
-constexpr std::size_t kMostQuoted = 60;        // bytes of a file's text that a message shows
 constexpr std::size_t kMostKnown = 50;         // names that a suggestion lists
 constexpr std::size_t kLongestCompared = 100;  // longer names are never near anything: bounds the cost of hostile ones
 
@@ -51,17 +50,19 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
-    if (text.size() <= kMostQuoted) return "'" + escaped(text) + "'";
-    std::size_t cut = kMostQuoted;
-    while (cut > 0 && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) --cut;  // not inside a UTF-8 character
-    return "'" + escaped(text.substr(0, cut)) + "...'";
+std::string quote(std::string_view text, std::size_t most) {
+    std::size_t cut = std::min(most, text.size());
+    while (cut > 0 && cut < text.size() && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) --cut;  // whole characters
+    std::string out = "'";
+    out += escaped(text.substr(0, cut));
+    out += cut < text.size() ? "...'" : "'";
+    return out;
 }
 
 std::string formatPosition(std::span<const std::string> files, SourcePosition where) {
     std::string text = where.file < files.size() ? escaped(files[where.file]) : "(unknown file)";
-    if (where.line > 0) text += ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
-    return text;
+    if (where.line == 0) return text;
+    return text.append(":").append(std::to_string(where.line)).append(":").append(std::to_string(where.column));
 }
 
 Error ErrorAt::placed(std::span<const std::string> files) const {
@@ -94,7 +95,7 @@ std::string suggestion(std::string_view name, std::span<const std::string> known
     if (known.empty()) return "";
     const std::vector<std::string> near = nearestNames(name, known);
     std::string text;
-    for (const std::string& n : near) text += (text.empty() ? "; did you mean " : " or ") + quoted(n);
+    for (const std::string& n : near) text += (text.empty() ? "; did you mean " : " or ") + quote(n);
     if (!near.empty()) return text + "?";
     text = "; known: ";
     for (std::size_t i = 0; i < std::min(known.size(), kMostKnown); ++i) text += (i == 0 ? "" : ", ") + escaped(known[i]);

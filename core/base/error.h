@@ -60,8 +60,8 @@ private:
     SourcePosition where_;
 };
 
-/// Text from a file as a message may show it: in single quotes, cut after 60 bytes, control characters escaped.
-std::string quoted(std::string_view text);
+/// Text from a file as a message may show it: in single quotes, cut after `most` bytes, control characters escaped.
+std::string quote(std::string_view text, std::size_t most = 60);
 
 /// The names nearest to `name` by edit distance (insert, delete, replace, swap neighbours; case is ignored), best first, at
 /// most `most`; empty where none is near enough (more than a third of the letters differ).

@@ -88,7 +88,7 @@ std::string ParameterSet::unusedMessage(const Parameter& p, std::string_view obj
     }
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    const std::string start = "parameter " + quoted(p.type + " " + p.name) + " of " + std::string(object);
+    const std::string start = "parameter " + quote(p.type + " " + p.name) + " of " + std::string(object);
     if (!types.empty()) return start + " is ignored: it has to be of type " + types;
     return start + " is unknown" + suggestion(p.name, names);
 }
