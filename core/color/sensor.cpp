@@ -30,7 +30,7 @@ bool isObserver(const ParameterSet& film, std::span<const std::string> files, Wa
     const std::span<const std::string> known = sensorNames();
     if (std::find(known.begin(), known.end(), name) != known.end()) return name == "cie1931";
     warnings.add(fmt::format("{}: unknown sensor {}, taken as cie1931{}", formatPosition(files, whereIs(film, "sensor")),
-                             quoted(name), suggestion(name, known)));
+                             quote(name), suggestion(name, known)));
     return true;
 }
 

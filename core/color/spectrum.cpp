@@ -127,7 +127,7 @@ float numberOf(const Word& word, const std::string& path) {
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
         throw Error(ErrorKind::BadData, fmt::format("{}:{}:{}: expected a finite number, found {}", path, word.line, word.column,
-                                                    quoted(word.text)));
+                                                    quote(word.text)));
     return value;
 }
 

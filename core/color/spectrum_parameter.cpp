@@ -12,7 +12,7 @@ class Reader {
 public:
     Reader(const Parameter& p, const SpectrumContext& context, std::string_view owner)
         : p_(p), context_(context), prefix_(fmt::format("{}: {} of {}", formatPosition(context.files, p.where),
-                                                        quoted(p.type + " " + p.name), owner)) {}
+                                                        quote(p.type + " " + p.name), owner)) {}
 
     const std::string& prefix() const { return prefix_; }
 
@@ -76,7 +76,7 @@ private:
         } catch (const Error& e) {
             const bool looksLikeName = name.find_first_of("./\\") == std::string::npos;
             if (e.kind() != ErrorKind::MissingInput || !looksLikeName) fail(e.what(), e.kind());
-            fail(fmt::format("{} is neither a built-in spectrum nor a file{}", quoted(name),
+            fail(fmt::format("{} is neither a built-in spectrum nor a file{}", quote(name),
                              suggestion(name, builtinSpectrumNames())));
         }
     }

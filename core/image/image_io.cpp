@@ -1,0 +1,192 @@
+#include "core/image/image_io.h"
+
+#include "core/base/atomic_file.h"
+#include "core/base/error.h"
+#include "core/image/pfm.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace penumbra {
+namespace {
+
+const char* oiioName(ImageFormat format) {
+    switch (format) {
+    case ImageFormat::Png: return "png";
+    case ImageFormat::Jpeg: return "jpeg";
+    case ImageFormat::Hdr: return "hdr";
+    case ImageFormat::Tiff: return "tiff";
+    case ImageFormat::Tga: return "targa";
+    case ImageFormat::Exr:
+    case ImageFormat::Pfm: break;   // read without OpenImageIO
+    }
+    return "";
+}
+
+/// OpenImageIO's global settings that concern us: no threads of its own, and an error counts even where nobody asks for it.
+void configureLibrary() {
+    static const bool once = [] { return OIIO::attribute("threads", 1) && OIIO::attribute("log_times", 0); }();
+    (void)once;
+}
+
+std::string firstLine(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& reason) {
+    throw Error(ErrorKind::BadData, fmt::format("{}: {}", path, reason.empty() ? "the image is damaged" : firstLine(reason)));
+}
+
+std::unique_ptr<OIIO::ImageInput> openInput(const std::string& path, ImageFormat format) {
+    // By format, never by path: open(path) would try other readers, whatever we have found the file to be.
+    std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create(oiioName(format));
+    if (!in) refuse(path, OIIO::geterror());
+    OIIO::ImageSpec spec, wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);   // colours as stored, not multiplied by alpha
+    in->threads(1);
+    if (!in->open(path, spec, wishes)) refuse(path, in->geterror());
+    return in;
+}
+
+/// How many of the file's channels make the image: grey with alpha gives grey, alpha is kept of PNG only.
+int keptChannels(ImageFormat format, int inFile) {
+    if (inFile <= 2) return 1;
+    return inFile == 4 && format == ImageFormat::Png ? 4 : 3;
+}
+
+template <class T>
+std::vector<T> readPixels(OIIO::ImageInput& in, const std::string& path, OIIO::TypeDesc type, int channels) {
+    const OIIO::ImageSpec& spec = in.spec();
+    std::vector<T> pixels(std::size_t(spec.width) * spec.height * channels);
+    if (!in.read_image(0, 0, 0, channels, type, pixels.data())) refuse(path, in.geterror());
+    return pixels;
+}
+
+Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const ReadImageOptions& options) {
+    configureLibrary();
+    const std::unique_ptr<OIIO::ImageInput> in = openInput(path, file.format);
+    const OIIO::ImageSpec& spec = in->spec();
+    if (spec.nchannels < 1 || spec.depth > 1 || spec.deep) refuse(path, "not a flat picture");
+
+    const int channels = keptChannels(file.format, spec.nchannels);
+    const bool isByte = spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeInt8;
+    const std::uint64_t fileBytes = spec.format.size() * spec.nchannels;
+    checkImageSize(path, spec.width, spec.height, std::max<std::uint64_t>(fileBytes, isByte ? 1 : channels * sizeof(float)),
+                   file.bytes, options.limits, file.format == ImageFormat::Hdr ? 4 * kMostExpansion : kMostExpansion);
+
+    const TransferFunction encoding = file.format == ImageFormat::Png ? options.pngEncoding : TransferFunction::srgb();
+    if (isByte)
+        return Image(spec.width, spec.height, channels, readPixels<std::uint8_t>(*in, path, OIIO::TypeUInt8, channels), encoding);
+    const bool isLinear = spec.format.is_floating_point();
+    std::vector<float> pixels = readPixels<float>(*in, path, OIIO::TypeFloat, channels);
+    if (!isLinear)
+        for (float& v : pixels) v = encoding.decode(v);
+    return Image(spec.width, spec.height, channels, std::move(pixels));
+}
+
+/// [0, 1] to [0, largest], rounded to nearest; not-a-number is 0.
+template <class T>
+std::vector<T> quantise(std::span<const float> values, float largest) {
+    std::vector<T> out(values.size());
+    std::transform(values.begin(), values.end(), out.begin(), [&](float v) {
+        return T(v > 0 ? std::floor(std::min(v, 1.f) * largest + 0.5f) : 0.f);
+    });
+    return out;
+}
+
+struct Encoder {
+    const char* format;
+    int bits;   ///< 32: float
+};
+
+std::vector<unsigned char> encode(const std::string& path, const Encoder& encoder, OIIO::ImageSpec spec, const void* pixels) {
+    configureLibrary();
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput proxy(bytes);
+    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(encoder.format);
+    const auto fail = [&](const std::string& reason) {
+        throw Error(ErrorKind::CannotWrite, fmt::format("{}: cannot encode: {}", path, firstLine(reason)));
+    };
+    if (!out) fail(OIIO::geterror());
+    out->threads(1);
+    if (!out->set_ioproxy(&proxy)) fail("the library cannot encode to memory");
+    if (!out->open(path, spec)) fail(out->geterror());
+    if (!out->write_image(spec.format, pixels) || !out->close()) fail(out->geterror());
+    return bytes;
+}
+
+std::vector<unsigned char> encodeImage(const std::string& path, const Encoder& encoder, OIIO::ImageSpec spec,
+                                       std::span<const float> rgb) {
+    if (encoder.bits == 8) {
+        spec.format = OIIO::TypeUInt8;
+        return encode(path, encoder, spec, quantise<std::uint8_t>(rgb, 255).data());
+    }
+    if (encoder.bits == 16) {
+        spec.format = OIIO::TypeUInt16;
+        return encode(path, encoder, spec, quantise<std::uint16_t>(rgb, 65535).data());
+    }
+    if (std::string_view(encoder.format) != "hdr") return encode(path, encoder, spec, rgb.data());
+    std::vector<float> positive(rgb.begin(), rgb.end());
+    for (float& v : positive) v = v > 0 ? std::min(v, 1e30f) : 0;   // no sign, no infinity, no not-a-number in RGBE
+    return encode(path, encoder, spec, positive.data());
+}
+
+Encoder encoderFor(const std::string& extension, const WriteImageOptions& options) {
+    if (extension == "png") return {"png", options.bits};
+    if (extension == "jpg" || extension == "jpeg") return {"jpeg", 8};
+    if (extension == "tif" || extension == "tiff") return {"tiff", options.bits};
+    if (extension == "hdr") return {"hdr", 32};
+    return {extension == "pfm" ? "pfm" : "", 32};
+}
+
+}  // namespace
+
+Image readImage(const std::string& path, const ReadImageOptions& options) {
+    const ImageFileInfo file = identifyImageFile(path);
+    if (file.format == ImageFormat::Exr) return readExrImage(path, options.limits);
+    try {
+        if (file.format == ImageFormat::Pfm) return readPfm(path, file.bytes, options.limits);
+        return readWithLibrary(path, file, options);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::OutOfMemory, path + ": not enough memory for the image");
+    } catch (const std::exception& e) {
+        refuse(path, e.what());
+    }
+}
+
+void writeImage(const std::string& path, int width, int height, std::span<const float> rgb,
+                const WriteImageOptions& options) {
+    const std::string extension = extensionOf(path);
+    const Encoder encoder = encoderFor(extension, options);
+    if (*encoder.format == '\0')
+        throw Error(ErrorKind::Usage, fmt::format("{}: cannot write images of extension {}; known: png, jpg, jpeg, hdr, pfm, tif, tiff",
+                                                  path, quote(extension)));
+    AtomicFile file(path);   // first, so that a path that cannot be written is known before the work
+    if (extension == "pfm") {
+        file.write(encodePfm(width, height, rgb));
+    } else {
+        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeFloat);
+        spec.attribute("Compression", encoder.format == std::string_view("jpeg") ? fmt::format("jpeg:{}", options.jpegQuality) : "zip");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+        const std::vector<unsigned char> bytes = encodeImage(path, encoder, spec, rgb);
+        file.write(bytes.data(), bytes.size());
+    }
+    file.commit();
+}
+
+ImageFileKind imageFileKind(const std::string& path, const WriteImageOptions& options) {
+    const Encoder encoder = encoderFor(extensionOf(path), options);
+    if (*encoder.format == '\0') return ImageFileKind::Unknown;
+    return encoder.bits == 32 ? ImageFileKind::Linear : ImageFileKind::DisplayEncoded;
+}
+
+}  // namespace penumbra
