@@ -1,0 +1,41 @@
+// What the diffuse area lights (rectangle, triangle, sphere, disk: one file per shape) have in common.
+//
+// In a scene file they are one plug-in, `AreaLightSource "diffuse"`, put on a shape: it emits the same radiance from every
+// point in every direction, on the side of the shape's geometric normal, or on both sides where it is two-sided.
+//
+// Sampling. By default a shape is sampled by the solid angle that it subtends, so that every sample weighs the same and
+// the 1 / d^2 of near lights is gone. `--light-sampling area` (LightTables::classicArea) is the estimator of the textbooks
+// instead: a point q uniform on the surface (density 1 / A per area), converted to solid angle by d^2 / cos(at the light), so
+//     f(wo, wi) L V(p, q) cos(at the surface) cos(at the light) / d^2 * A.
+// Both have the same expectation; the second varies more, without bound as the point nears the light.
+#pragma once
+
+#include "lights/light.h"
+
+namespace penumbra {
+
+inline constexpr ParameterInfo kDiffuseAreaParameters[] = {
+    {"spectrum", "L", "white", "emitted radiance"},
+    {"float", "scale", "1", "factor on L"},
+    {"float", "power", "0", "where positive, the flux in watts that each primitive emits"},
+    {"bool", "twosided", "false", "emit on both sides"},
+    {"string", "filename", "", "image of the emission over the surface's uv, instead of L"},
+};
+inline constexpr PluginInfo kDiffuseAreaInfo = {
+    "diffuse", "area light on a shape: constant radiance on the side of the normal", kDiffuseAreaParameters};
+
+// Flags of an area light.
+inline constexpr std::uint32_t kLightTwoSided = 1;   ///< emits on both sides
+inline constexpr std::uint32_t kLightReversed = 2;   ///< quadrics only: the outside is where the object-space normal does not point
+inline constexpr std::uint32_t kLightUnmet = 4;      ///< rays pass through the shape (alpha 0), so that only sampling finds the light
+
+template <class F>
+Mask<F> hasFlag(UInt<F> flags, std::uint32_t flag) {
+    return (flags & UInt<F>(flag)) != UInt<F>(0u);
+}
+
+/// Below this solid angle a planar light is sampled by area: it looks the same size from everywhere on it, and single
+/// precision would no longer resolve positions inside it.
+inline constexpr float kSmallestSolidAngle = 1e-4f;
+
+}  // namespace penumbra
