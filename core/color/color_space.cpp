@@ -7,17 +7,9 @@
 namespace penumbra {
 namespace {
 
-/// RGB to XYZ such that each primary has its chromaticity and (1, 1, 1) is the white at Y = 1.
-Matrix3 primariesToXyz(Chromaticity red, Chromaticity green, Chromaticity blue, Chromaticity white) {
-    const auto column = [](Chromaticity c) { return Triple{c.x, c.y, 1 - c.x - c.y}; };
-    const Triple r = column(red), g = column(green), b = column(blue);
-    const Matrix3 primaries{{{{r[0], g[0], b[0]}, {r[1], g[1], b[1]}, {r[2], g[2], b[2]}}}};
-    return primaries * diagonal(inverse(primaries) * xyzOf(white));
-}
-
 ColorSpace makeSpace(std::string name, Chromaticity red, Chromaticity green, Chromaticity blue, Chromaticity white,
                      std::string illuminant) {
-    const Matrix3 xyzFromRgb = primariesToXyz(red, green, blue, white);
+    const Matrix3 xyzFromRgb = xyzFromPrimaries(red, green, blue, white);
     return {std::move(name), red, green, blue, white, std::move(illuminant), xyzFromRgb, inverse(xyzFromRgb)};
 }
 
@@ -68,6 +60,13 @@ const ColorSpace* findColorSpace(Chromaticity red, Chromaticity green, Chromatic
     for (const ColorSpace& s : spaces())
         if (near(s.red, red) && near(s.green, green) && near(s.blue, blue) && near(s.white, white)) return &s;
     return nullptr;
+}
+
+Matrix3 xyzFromPrimaries(Chromaticity red, Chromaticity green, Chromaticity blue, Chromaticity white) {
+    const auto column = [](Chromaticity c) { return Triple{c.x, c.y, 1 - c.x - c.y}; };
+    const Triple r = column(red), g = column(green), b = column(blue);
+    const Matrix3 primaries{{{{r[0], g[0], b[0]}, {r[1], g[1], b[1]}, {r[2], g[2], b[2]}}}};
+    return primaries * diagonal(inverse(primaries) * xyzOf(white));
 }
 
 Matrix3 lightConversion(const ColorSpace& from, const ColorSpace& to) {

@@ -40,6 +40,9 @@ const ColorSpace& srgbColorSpace();
 /// The known space with these primaries and white, each within 0.002 (files round them); null where there is none.
 const ColorSpace* findColorSpace(Chromaticity red, Chromaticity green, Chromaticity blue, Chromaticity white);
 
+/// RGB to XYZ such that each primary has its chromaticity and (1, 1, 1) is the white at Y = 1.
+Matrix3 xyzFromPrimaries(Chromaticity red, Chromaticity green, Chromaticity blue, Chromaticity white);
+
 /// Takes light (radiance, pixels) from one space to another; the identity, exactly, where they are the same.
 Matrix3 lightConversion(const ColorSpace& from, const ColorSpace& to);
 /// Takes reflectances and coefficients from one space to another: white stays (1, 1, 1).
