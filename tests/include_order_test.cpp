@@ -55,10 +55,10 @@ struct ThirdParty {
 
 const std::vector<ThirdParty>& thirdParties() {
     static const std::vector<ThirdParty> table = {
-        {"Embree", std::regex("embree[0-9]?/.*|rtcore.*"), "core/geometry/embree_scene"},
+        {"Embree", std::regex("embree[0-9]?/.*|rtcore.*"), "core/geometry/accelerator"},
         {"TBB", std::regex("(tbb|oneapi)/.*"), "core/base/parallel"},
-        {"OpenImageIO or OpenEXR", std::regex("OpenImageIO/.*|OpenEXR/.*|Imath/.*|Imf.*|Imath.*|half\\.h|Iex.*"),
-         "core/image/image_io"},
+        {"OpenImageIO", std::regex("OpenImageIO/.*"), "core/image/image_io"},
+        {"OpenEXR", std::regex("OpenEXR/.*|Imath/.*|Imf.*|Imath.*|half\\.h|Iex.*"), "core/image/exr"},
         {"OpenColorIO", std::regex("OpenColorIO/.*"), "core/color/display"},
         {"OpenSSL", std::regex("openssl/.*"), "core/base/sha256"},
         {"zlib", std::regex("zlib\\.h"), "core/base/byte_reader"},
@@ -202,7 +202,7 @@ TEST(IncludeOrder, CatchesWhatItShould) {
     EXPECT_TRUE(thirdPartyOf("scenes/scene.cpp", "oneapi/tbb/parallel_for.h"));
     EXPECT_TRUE(thirdPartyOf("app/batch/job.h", "nlohmann/json.hpp"));
     EXPECT_TRUE(thirdPartyOf("core/film/film.cpp", "ImfOutputFile.h"));
-    EXPECT_FALSE(thirdPartyOf("core/geometry/embree_scene.cpp", "embree3/rtcore.h"));
+    EXPECT_FALSE(thirdPartyOf("core/geometry/accelerator.cpp", "embree3/rtcore.h"));
     EXPECT_FALSE(thirdPartyOf("app/commands/render.cpp", "CLI/CLI.hpp"));
 }
 
