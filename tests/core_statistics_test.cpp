@@ -28,7 +28,8 @@ double uniform(std::mt19937_64& generator) {
 
 std::vector<double> normals(std::mt19937_64& generator, std::size_t n, double mean, double deviation) {
     std::vector<double> values(n);
-    for (double& v : values) v = mean + deviation * normalQuantile(uniform(generator));
+    for (double& v : values)
+        v = mean + deviation * normalQuantile(uniform(generator));
     return values;
 }
 
@@ -37,7 +38,7 @@ TEST(CoreStatistics, DistributionsMatchTables) {
     EXPECT_NEAR(normalSurvival(6) / 9.865876450376946e-10, 1, 1e-12);
     EXPECT_NEAR(normalQuantile(0.975), 1.959963984540054, 1e-13);
     EXPECT_NEAR(studentSurvival(2.2281388519862744, 10), 0.025, 1e-14);
-    EXPECT_NEAR(studentSurvival(1, 1), 0.25, 1e-15);   // Cauchy
+    EXPECT_NEAR(studentSurvival(1, 1), 0.25, 1e-15);  // Cauchy
     EXPECT_NEAR(studentQuantile(0.995, 15), 2.946712883475227, 1e-12);
     EXPECT_NEAR(chiSquareSurvival(3.841458820694124, 1), 0.05, 1e-14);
     EXPECT_NEAR(chiSquareSurvival(10, 2), std::exp(-5.0), 1e-15);
@@ -95,7 +96,7 @@ TEST(CoreStatistics, TestsWithoutSpreadDecideExactly) {
     EXPECT_EQ(welchTest(same, momentsOf(std::vector<double>{3, 3})).pValue, 0);
     EXPECT_EQ(equivalenceTest(same, 2.001, 0.01).pValue, 0);
     EXPECT_EQ(equivalenceTest(same, 2.1, 0.01).pValue, 1);
-    EXPECT_EQ(equivalenceTest(same, 2.5, 0.5).pValue, 0.5);   // exactly at the margin: undecided
+    EXPECT_EQ(equivalenceTest(same, 2.5, 0.5).pValue, 0.5);  // exactly at the margin: undecided
 }
 
 TEST(CoreStatistics, NotANumberIsNeverAccepted) {
@@ -131,7 +132,7 @@ TEST(CoreStatistics, ChiSquare) {
     const TestResult pooled = chiSquareTest(std::vector<double>{3, 48, 4}, std::vector<double>{2, 50, 3});
     EXPECT_EQ(pooled.degreesOfFreedom, 1);
     EXPECT_NEAR(pooled.statistic, 0.8 + 0.08, 1e-12);
-    // no remainder: 4 + 4 make one cell of 8 with the 1 in it
+    // 1 + 4 make a cell; the other 4 is a remainder that joins it, and one cell alone says nothing
     EXPECT_EQ(chiSquareTest(std::vector<double>{4, 4, 1}, std::vector<double>{4, 4, 1}).pValue, 1);
     // all too small together: nothing to test
     EXPECT_EQ(chiSquareTest(std::vector<double>{1, 0}, std::vector<double>{1, 1}).pValue, 1);
@@ -143,7 +144,8 @@ TEST(CoreStatistics, ChiSquare) {
 TEST(CoreStatistics, HolmAndSidak) {
     const std::vector<double> adjusted = holmAdjusted(std::vector<double>{0.01, 0.04, 0.03, 0.005});
     const std::vector<double> known{0.03, 0.06, 0.06, 0.02};
-    for (std::size_t i = 0; i < known.size(); ++i) EXPECT_NEAR(adjusted[i], known[i], 1e-15);
+    for (std::size_t i = 0; i < known.size(); ++i)
+        EXPECT_NEAR(adjusted[i], known[i], 1e-15);
     EXPECT_EQ(holmAdjusted(std::vector<double>{0.9, 0.8})[0], 1);
     EXPECT_TRUE(holmAdjusted({}).empty());
     EXPECT_NEAR(sidakLevel(0.05, 10), 0.005116196891823743, 1e-15);
@@ -177,7 +179,8 @@ TEST(CoreStatistics, WrongHypothesesAreRejected) {
     std::mt19937_64 generator(7);
     EXPECT_LT(studentTest(momentsOf(normals(generator, 64, 1.01, 0.01)), 1).pValue, 1e-6);
     std::vector<double> squares(400);
-    for (double& v : squares) v = std::pow(uniform(generator), 1.5);
+    for (double& v : squares)
+        v = std::pow(uniform(generator), 1.5);
     EXPECT_LT(uniformityTest(squares).pValue, 1e-6);
     EXPECT_LT(chiSquareTest(std::vector<double>{150, 90, 60}, std::vector<double>{100, 100, 100}).pValue, 1e-6);
 }

@@ -45,7 +45,8 @@ double kolmogorovSurvival(double distance, std::size_t n) {
     const double root = std::sqrt(static_cast<double>(n));
     const double lambda = (root + 0.12 + 0.11 / root) * distance;
     if (std::isnan(lambda)) return kNaN;
-    if (lambda < 0.2) return 1.0;   // the true value differs from 1 by less than 1e-12; the series converges slowly there
+    if (lambda < 0.2)
+        return 1.0;  // the true value differs from 1 by less than 1e-12; the series converges slowly there
     double sum = 0, sign = 1;
     for (int k = 1; k <= 100; ++k) {
         const double term = std::exp(-2.0 * k * k * lambda * lambda);

@@ -2,6 +2,7 @@
 //
 // Conventions: "survival" is P(X > x), computed directly, so that small p-values keep their digits. Arguments may be
 // infinite; a NaN gives NaN. Quantiles take probabilities in (0, 1).
+//
 // Thread safety: pure functions.
 #pragma once
 

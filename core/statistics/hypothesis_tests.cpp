@@ -20,7 +20,9 @@ double inStandardErrors(double distance, double standardError) {
     return standardError == 0 ? std::copysign(kInfinity, distance) : distance / standardError;
 }
 
-double orZero(double p) { return std::isnan(p) ? 0.0 : p; }
+double orZero(double p) {
+    return std::isnan(p) ? 0.0 : p;
+}
 
 struct Cell {
     double observed = 0, expected = 0;
@@ -78,7 +80,8 @@ TestResult equivalenceTest(const Moments& sample, double expected, double margin
     return {t, dof, std::isnan(p) || std::isnan(gap) ? 1.0 : p};
 }
 
-TestResult chiSquareTest(std::span<const double> observed, std::span<const double> expected, double smallest, int fitted) {
+TestResult chiSquareTest(std::span<const double> observed, std::span<const double> expected, double smallest,
+                         int fitted) {
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < observed.size(); ++i) {
         if (!(expected[i] >= 0) || std::isnan(observed[i]) || (expected[i] == 0 && observed[i] != 0))

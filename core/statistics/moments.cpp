@@ -16,7 +16,8 @@ Moments momentsOf(std::span<const double> values) {
     result.count = values.size();
     const double n = static_cast<double>(values.size());
     double sum = 0;
-    for (const double v : values) sum += v;
+    for (const double v : values)
+        sum += v;
     result.mean = values.empty() ? std::numeric_limits<double>::quiet_NaN() : sum / n;
 
     double squares = 0, rest = 0;
@@ -25,7 +26,8 @@ Moments momentsOf(std::span<const double> values) {
         squares += d * d;
         rest += d;
     }
-    result.variance = values.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : (squares - rest * rest / n) / (n - 1);
+    result.variance =
+        values.size() < 2 ? std::numeric_limits<double>::quiet_NaN() : (squares - rest * rest / n) / (n - 1);
     return result;
 }
 

@@ -3,6 +3,7 @@
 // Conventions: `variance` is that of one value, unbiased (divided by n - 1); standardError() is that of the mean.
 // The values must be independent: the samples of one low-discrepancy pixel are not (their naive standard error is up to
 // 170 times too large), its replicates are.
+//
 // Thread safety: pure functions and plain values.
 #pragma once
 
@@ -14,7 +15,7 @@ namespace penumbra {
 struct Moments {
     std::size_t count = 0;
     double mean = 0;
-    double variance = 0;          ///< NaN for fewer than two values
+    double variance = 0;  ///< NaN for fewer than two values
 
     double standardError() const;
     double degreesOfFreedom() const { return static_cast<double>(count) - 1; }

@@ -1,0 +1,333 @@
+// Direct light: the irradiance E under every kind of emitter, and form factors.
+//
+// A Lambert receiver shows rho E / pi; all lights have radiance 1 unless said. B: one receiver point (Howell's
+// catalogue of configuration factors, and Lambert's formulas); C: the mean over a whole receiver, which is the form
+// factor.
+#include "scenes/analytic/scene_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace penumbra {
+
+using namespace analytic;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRho = .5;
+
+/// What the receiver point at the origin shows under `lights`, given its irradiance.
+AnalyticScene point(const std::string& id, const std::string& claim, const std::string& lights, double irradiance) {
+    return {.id = id,
+            .claim = claim,
+            .text = sceneText({.camera = viewOfOrigin()}, diffuse(kRho) + floorSquare(.1) + lights),
+            .expected = grey(kRho * irradiance / kPi)};
+}
+
+AnalyticScene with(AnalyticScene::Strategy strategy, AnalyticScene scene) {
+    scene.id += strategy == AnalyticScene::Strategy::LightSampling ? " light sampling" : " scattering only";
+    scene.strategy = strategy;
+    return scene;
+}
+
+/// Configuration factors times pi.
+double underDisk(double radius, double height, double offAxis) {
+    const double s = offAxis * offAxis + height * height, a2 = radius * radius;
+    return kPi / 2 * (1 - (s - a2) / std::sqrt((s + a2) * (s + a2) - 4 * a2 * offAxis * offAxis));
+}
+
+double underCorner(double a, double b) {  // parallel rectangle a x b at height 1, receiver under one corner
+    const double ra = std::sqrt(1 + a * a), rb = std::sqrt(1 + b * b);
+    return .5 * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
+}
+
+void addSpheres(std::vector<AnalyticScene>& scenes) {
+    const AnalyticScene above = point("B1", "sphere light of radius 1 at distance 2 along the normal: E = pi (r/d)^2",
+                                      emitter(1, sphere(1, {0, 0, 2})), kPi / 4);
+    scenes.push_back(above);
+    scenes.push_back(with(AnalyticScene::Strategy::LightSampling, above));
+    scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, above));
+    scenes.push_back(point("B2",
+                           "sphere light of radius 1 at distance 3, 60 degrees off the normal: E = pi (r/d)^2 cos",
+                           emitter(1, sphere(1, {3 * std::sqrt(.75), 0, 1.5})), kPi / 18));
+    scenes.push_back(point("B3", "sphere light of radius 1 at distance 2, its centre on the horizon",
+                           emitter(1, sphere(1, {2, 0, 0})), std::atan(1 / std::sqrt(3.)) - std::sqrt(3.) / 4));
+    scenes.back().samplesPerPixel = 256;
+    const double sigma = .2666 * kPi / 180;
+    scenes.push_back(point("B15", "the sun: a sphere of .2666 degrees half angle and radiance 1e4 in the zenith",
+                           emitter(1e4, sphere(1000 * std::sin(sigma), {0, 0, 1000})),
+                           1e4 * kPi * std::pow(std::sin(sigma), 2)));
+}
+
+void addDisks(std::vector<AnalyticScene>& scenes) {
+    const AnalyticScene above = point("B4", "disk light of radius 1 at height 1 on the axis: E = pi a^2 / (a^2 + h^2)",
+                                      emitter(1, disk(1, {0, 0, 1}, Facing::Negative)), kPi / 2);
+    scenes.push_back(above);
+    scenes.push_back(with(AnalyticScene::Strategy::LightSampling, above));
+    scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, above));
+    scenes.push_back(point("B4 two-sided", "the same disk turned away, but two-sided",
+                           emitter(1, disk(1, {0, 0, 1}, Facing::Positive), R"("bool twosided" true)"), kPi / 2));
+    scenes.push_back(point(
+        "B4 power", "the same disk with a power of pi^2 given: radiance power / (pi area) = 1",
+        emitter(1, disk(1, {0, 0, 1}, Facing::Negative), fmt::format("\"float power\" [ {} ]", kPi * kPi)), kPi / 2));
+    scenes.push_back(point("B5", "disk light of radius 1 at height 1, the receiver 1 off its axis",
+                           emitter(1, disk(1, {1, 0, 1}, Facing::Negative)), underDisk(1, 1, 1)));
+
+    // Howell B-14: receiver turned by 90 degrees, here in the plane x = 0 with the normal +x.
+    const double h = .5, r = .5, z = 1 + h * h + r * r;
+    AnalyticScene beside =
+        point("B6", "disk light of radius 1 facing down, its axis at 2, 1 above a receiver that faces the axis", "",
+              kPi * h / 2 * (z / std::sqrt(z * z - 4 * r * r) - 1));
+    beside.text = sceneText({.camera = orthographicView({.5, 0, 0}, {0, 0, 0}, {0, 0, 1}, 1e-3)},
+                            diffuse(kRho) + rectangleX(-.1, .1, -.1, .1, 0, Facing::Positive) +
+                                emitter(1, disk(1, {2, 0, 1}, Facing::Negative)));
+    scenes.push_back(beside);
+}
+
+void addRectangles(std::vector<AnalyticScene>& scenes) {
+    scenes.push_back(point("B7", "square light 1 x 1 at height 1, the receiver under one corner",
+                           emitter(1, rectangleZ(0, 1, 0, 1, 1, Facing::Negative)), underCorner(1, 1)));
+    const AnalyticScene centred =
+        point("B7b", "square light 2 x 2 at height 1, centred over the receiver",
+              emitter(1, rectangleZ(-1, 1, -1, 1, 1, Facing::Negative)), 4 * underCorner(1, 1));
+    scenes.push_back(centred);
+    scenes.push_back(with(AnalyticScene::Strategy::LightSampling, centred));
+    scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, centred));
+
+    AnalyticScene direct = centred;
+    direct.id = "B7b direct";
+    direct.text =
+        sceneText({.camera = viewOfOrigin(), .integrator = "direct"},
+                  diffuse(kRho) + floorSquare(.1) + emitter(1, rectangleZ(-1, 1, -1, 1, 1, Facing::Negative)));
+    scenes.push_back(direct);
+
+    scenes.push_back(point("B8",
+                           "wall light 1 x 1 standing on the floor's plane at distance 1, opposite one lower corner",
+                           emitter(1, rectangleX(0, 1, 0, 1, 1, Facing::Negative)),
+                           .5 * (std::atan(1.) - 1 / std::sqrt(2.) * std::atan(1 / std::sqrt(2.)))));
+
+    // Seen in the mirror x = 0 the light continues on the other side. The receiver touches the mirror.
+    AnalyticScene mirror =
+        point("B21", "as B7, with a mirror wall in the plane of the light's edge: twice B7", "", 2 * underCorner(1, 1));
+    const std::string wall = scoped("Material \"conductor\" \"rgb eta\" [ 1 1 1 ] \"rgb k\" [ 1000 1000 1000 ]\n" +
+                                    rectangleX(-50, 50, -1, 50, 0, Facing::Positive));
+    mirror.text = sceneText({.camera = orthographicView({1e-3, 0, .5}, {1e-3, 0, 0}, {0, 1, 0}, 1e-3), .maxDepth = 2},
+                            diffuse(kRho) + rectangleZ(-.1, .1, -.1, .1, 0, Facing::Positive) + wall +
+                                emitter(1, rectangleZ(0, 1, 0, 1, 1, Facing::Negative)));
+    mirror.samplesPerPixel = 128;
+    scenes.push_back(mirror);
+
+    // The same solid angle at every size, so the same irradiance.
+    for (const double scale : {1e-4, 1e6}) {
+        AnalyticScene scaled = centred;
+        scaled.id = scale < 1 ? "B7b tiny" : "B7b huge";
+        scaled.claim = fmt::format("as B7b, all lengths times {}", scale);
+        scaled.text = sceneText({.camera = orthographicView({0, 0, .5 * scale}, {0, 0, 0}, {0, 1, 0}, 1e-3 * scale)},
+                                diffuse(kRho) + floorSquare(.1 * scale) +
+                                    emitter(1, rectangleZ(-scale, scale, -scale, scale, scale, Facing::Negative)));
+        scenes.push_back(scaled);
+    }
+}
+
+/// Many lights: each must be picked as often as its pick probability says.
+void addManyLights(std::vector<AnalyticScene>& scenes) {
+    const std::string lights = emitter(1, rectangleZ(0, 1, 0, 1, 1, Facing::Negative)) +
+                               emitter(2, rectangleZ(-1, 0, 0, 1, 1, Facing::Negative)) +
+                               emitter(3, rectangleZ(-1, 0, -1, 0, 1, Facing::Negative)) +
+                               emitter(10, rectangleZ(0, 1, -1, 0, 1, Facing::Negative));
+    for (const char* picks : {"uniform", "power"}) {
+        AnalyticScene s =
+            point(fmt::format("B7 four lights, {}", picks),
+                  "four corner lights of radiances 1, 2, 3 and 10: sixteen times B7", lights, 16 * underCorner(1, 1));
+        s.text = sceneText(
+            {.camera = viewOfOrigin(), .integratorParameters = fmt::format("\"string lightsampler\" \"{}\"", picks)},
+            diffuse(kRho) + floorSquare(.1) + lights);
+        s.samplesPerPixel = 128;
+        scenes.push_back(s);
+    }
+}
+
+void addSky(std::vector<AnalyticScene>& scenes) {
+    const std::string wall = scoped(black() + rectangleX(-1000, 1000, -1, 1, 1, Facing::Negative));
+    const AnalyticScene beside =
+        point("B12", "sky of radiance 1, beside a black wall without end whose top stands at 45 degrees",
+              constantSky(1) + wall, kPi * (1 + std::cos(kPi / 4)) / 2);
+    scenes.push_back(beside);
+
+    AnalyticScene occlusion = beside;
+    occlusion.id = "B12 occlusion";
+    occlusion.claim = "the same by the ambient occlusion integrator: the open part, cosine-weighted";
+    occlusion.text = sceneText({.camera = viewOfOrigin(), .maxDepth = kNoDepth, .integrator = "ambientocclusion"},
+                               floorSquare(.1) + wall);
+    occlusion.expected = grey((1 + std::cos(kPi / 4)) / 2);
+    scenes.push_back(occlusion);
+
+    AnalyticScene limited = occlusion;
+    limited.id = "B12 occlusion within 2";
+    limited.claim =
+        "a ceiling at height 1 occludes within a distance of 2 what is steeper than 60 degrees: 1/4 stays open";
+    limited.text = sceneText({.camera = viewOfOrigin(),
+                              .maxDepth = kNoDepth,
+                              .integrator = "ambientocclusion",
+                              .integratorParameters = "\"float maxdistance\" [ 2 ]"},
+                             floorSquare(.1) + rectangleZ(-10, 10, -10, 10, 1, Facing::Negative));
+    limited.expected = grey(.25);
+    scenes.push_back(limited);
+}
+
+/// Light direction -> pixel -> radiance of a 16 x 16 equal-area octahedral map; coloured, smooth, and nowhere
+/// symmetric.
+std::array<float, 3> mapPixel(int column, int row) {
+    const double s = (column + .5) / 16, t = (row + .5) / 16;
+    return {static_cast<float>(.2 + s), static_cast<float>(.1 + 3 * t * t), static_cast<float>(std::exp(3 * s * t))};
+}
+
+/// The direction of the point (s, t) of an equal-area octahedral map (Clarberg 2008).
+Point mapDirection(double s, double t) {
+    const double u = 2 * s - 1, v = 2 * t - 1, sigma = 1 - std::abs(u) - std::abs(v), r = 1 - std::abs(sigma);
+    const double phi = kPi / 4 * (r == 0 ? 1 : 1 + (std::abs(v) - std::abs(u)) / r), rho = r * std::sqrt(2 - r * r);
+    return {std::copysign(rho * std::cos(phi), u), std::copysign(rho * std::sin(phi), v),
+            std::copysign(1 - r * r, sigma)};
+}
+
+/// A receiver turned so that its normal in the map's frame is -y (the map's "up" z stands along the world's y).
+AnalyticScene mapScene() {
+    std::vector<std::array<float, 3>> pixels;
+    for (int row = 0; row < 16; ++row)
+        for (int column = 0; column < 16; ++column)
+            pixels.push_back(mapPixel(column, row));
+
+    constexpr int kFine = 1024;  // points of the map a side; every pixel has the same solid angle
+    std::array<double, 3> irradiance{};
+    for (int j = 0; j < kFine; ++j)
+        for (int i = 0; i < kFine; ++i) {
+            const double cosine = -mapDirection((i + .5) / kFine, (j + .5) / kFine).y;
+            const std::array<float, 3>& radiance =
+                pixels[static_cast<std::size_t>(j / (kFine / 16) * 16 + i / (kFine / 16))];
+            for (std::size_t c = 0; c < 3; ++c)
+                irradiance[c] += std::max(0., cosine) * radiance[c];
+        }
+    AnalyticScene s =
+        point("L6", "image sky, equal-area, standing upright: the sum over its pixels of radiance times cosine", "", 0);
+    s.text = sceneText({.camera = viewOfOrigin()},
+                       diffuse(kRho) + floorSquare(.1) +
+                           scoped("Rotate -90 1 0 0\nLightSource \"infinite\" \"string filename\" \"sky.pfm\"\n"));
+    s.files = {{"sky.pfm", pfmImage(16, 16, pixels)}};
+    for (std::size_t c = 0; c < 3; ++c)
+        s.expected[c] = kRho / kPi * irradiance[c] * 4 * kPi / (kFine * kFine);
+    s.samplesPerPixel = 128;
+    return s;
+}
+
+/// Point, distant and infinite lights: one direction or none to choose, so nothing is random.
+void addLightsOfOneDirection(std::vector<AnalyticScene>& scenes) {
+    const auto add = [&](AnalyticScene s) {
+        s.exact = true;
+        s.samplesPerPixel = 4;
+        scenes.push_back(std::move(s));
+    };
+    const std::string parallel =
+        "LightSource \"distant\" \"rgb L\" [ 3 2 1 ] \"point3 from\" [ {} 0 {} ] \"point3 to\" [ 0 0 0 ]\n";
+    AnalyticScene sun = point("L1", "distant light of irradiance (3, 2, 1) from the zenith",
+                              fmt::format(fmt::runtime(parallel), 0, 1), 0);
+    sun.expected = {3 * kRho / kPi, 2 * kRho / kPi, kRho / kPi};
+    add(sun);
+    sun.id = "L1 slanted";
+    sun.claim = "the same, 60 degrees from the zenith: half of it";
+    sun.text = sceneText({.camera = viewOfOrigin()},
+                         diffuse(kRho) + floorSquare(.1) + fmt::format(fmt::runtime(parallel), std::sqrt(.75), .5));
+    for (double& e : sun.expected)
+        e *= .5;
+    add(sun);
+    add(point("L2", "point light of intensity 4 at height 2: E = I / d^2",
+              "LightSource \"point\" \"rgb I\" [ 4 4 4 ] \"point3 from\" [ 0 0 2 ]\n", 1));
+    add(point("L3", "point light of power 16 pi at height 2: intensity power / (4 pi)",
+              fmt::format("LightSource \"point\" \"float power\" [ {} ] \"point3 from\" [ 0 0 2 ]\n", 16 * kPi), 1));
+    add(point("L4", "distant light of illuminance 2",
+              "LightSource \"distant\" \"float illuminance\" [ 2 ] \"point3 from\" [ 0 0 1 ] \"point3 to\" [ 0 0 0 ]\n",
+              2));
+    scenes.push_back(
+        point("L5", "constant sky of illuminance 1", "LightSource \"infinite\" \"float illuminance\" [ 1 ]\n", 1));
+    scenes.push_back(mapScene());
+
+    AnalyticScene floor = point("B19",
+                                "point light of intensity 1 at height 1 over the centre of a 2 x 2 floor: mean E = "
+                                "I Omega / A, Omega = 2 pi / 3",
+                                "", 2 * kPi / 3 / 4);
+    floor.text = sceneText(
+        {.camera = orthographicView({0, 0, .5}, {0, 0, 0}, {0, 1, 0}, 1)},
+        diffuse(kRho) + floorSquare(2) + "LightSource \"point\" \"rgb I\" [ 1 1 1 ] \"point3 from\" [ 0 0 1 ]\n");
+    scenes.push_back(floor);
+
+    AnalyticScene textured = floor;
+    textured.id = "T1";
+    textured.claim =
+        "a 2 x 2 image of reflectances .1 .3 .5 .7 over a square in parallel light of irradiance pi: their mean";
+    textured.text = sceneText(
+        {.camera = orthographicView({.5, .5, .5}, {.5, .5, 0}, {0, 1, 0}, .5)},
+        fmt::format("Texture \"image\" \"spectrum\" \"imagemap\" \"string filename\" \"reflectance.pfm\"\n"
+                    "Material \"diffuse\" \"texture reflectance\" \"image\"\n"
+                    "LightSource \"distant\" \"rgb L\" {} \"point3 from\" [ 0 0 1 ] \"point3 to\" [ 0 0 0 ]\n",
+                    spectrumOf(kPi)) +
+            rectangleZ(0, 1, 0, 1, 0, Facing::Positive));
+    textured.files = {
+        {"reflectance.pfm", pfmImage(2, 2, {{.1f, .1f, .1f}, {.3f, .3f, .3f}, {.5f, .5f, .5f}, {.7f, .7f, .7f}})}};
+    textured.expected = grey(.4);
+    scenes.push_back(textured);
+}
+
+void addFormFactors(std::vector<AnalyticScene>& scenes) {
+    // Seen from straight above, the picture's mean is the mean over the receiver: rho times the form factor.
+    const auto square = [&](const std::string& id, const std::string& claim, const std::string& lights,
+                            double formFactor) {
+        AnalyticScene s = point(id, claim, "", kPi * formFactor);
+        s.text = sceneText({.camera = orthographicView({.5, .5, .5}, {.5, .5, 0}, {0, 1, 0}, .5)},
+                           diffuse(kRho) + rectangleZ(0, 1, 0, 1, 0, Facing::Positive) + lights);
+        scenes.push_back(s);
+    };
+    const double r2 = std::sqrt(2.);
+    const double opposite = 2 / kPi * (std::log(std::sqrt(4. / 3)) + 2 * r2 * std::atan(1 / r2) - 2 * std::atan(1.));
+    const double adjacent = 1 / kPi * (2 * std::atan(1.) - r2 * std::atan(1 / r2) + .25 * std::log(3. / 4));
+    const std::string ceiling = emitter(1, rectangleZ(0, 1, 0, 1, 1, Facing::Negative));
+    const std::string wall = emitter(1, rectangleX(0, 1, 0, 1, 0, Facing::Positive));
+    square("C1", "two parallel unit squares 1 apart: form factor (Howell C-11)", ceiling, opposite);
+    square("C2", "two unit squares that share an edge at 90 degrees: form factor (Howell C-14)", wall, adjacent);
+    std::string sides = ceiling;
+    for (const int turn : {0, 90, 180, 270})
+        sides += scoped(fmt::format("Translate .5 .5 0\nRotate {} 0 0 1\nTranslate -.5 -.5 0\n", turn) + wall);
+    square("C3", "the floor of a cube whose other five sides emit 1: the form factors add to 1", sides, 1);
+
+    const std::string above = orthographicView({0, 0, .5}, {0, 0, 0}, {0, 1, 0}, 1);
+    AnalyticScene disks = point("C4", "coaxial unit disks 1 apart: form factor; the disk fills pi/4 of the picture", "",
+                                kPi * (3 - std::sqrt(5.)) / 2 * kPi / 4);
+    disks.text = sceneText({.camera = above}, diffuse(kRho) + disk(1, {}, Facing::Positive) +
+                                                  emitter(1, disk(1, {0, 0, 1}, Facing::Negative)));
+    scenes.push_back(disks);
+
+    // Of the sphere's flux 4 pi^2 r^2 a disk of radius 2 at distance 2 takes the fraction (1 - 1/sqrt 2) / 2.
+    AnalyticScene under = point("C5", "unit sphere light, its centre 2 above a coaxial disk of radius 2: form factor",
+                                "", 4 * kPi * kPi * (1 - 1 / r2) / 2 / (4 * kPi) * kPi / 4);
+    under.text = sceneText({.camera = orthographicView({0, 0, .5}, {0, 0, 0}, {0, 1, 0}, 2)},
+                           diffuse(kRho) + disk(2, {}, Facing::Positive) + emitter(1, sphere(1, {0, 0, 2})));
+    scenes.push_back(under);
+}
+
+}  // namespace
+
+std::vector<AnalyticScene> analyticEmitters() {
+    std::vector<AnalyticScene> scenes;
+    addSpheres(scenes);
+    addDisks(scenes);
+    addRectangles(scenes);
+    addManyLights(scenes);
+    addSky(scenes);
+    addLightsOfOneDirection(scenes);
+    addFormFactors(scenes);
+    return scenes;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,249 @@
+// What materials do to light: Fresnel's formulas, glass slabs, coats, microfacets, absorption.
+//
+// Microfacet values are the directional albedo of single scattering by visible facets (height-correlated Smith), found
+// by quadrature over the visible normals (Heitz 2018) and, for GGX with alpha = 1 at normal incidence, in closed form.
+#include "scenes/analytic/quadrature.h"
+#include "scenes/analytic/scene_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace penumbra {
+
+using namespace analytic;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kIor = 1.5;
+
+/// Unpolarised reflectance of a boundary of the given (complex) relative index.
+double fresnel(double cosine, std::complex<double> index) {
+    const std::complex<double> inside = std::sqrt(1. - (1 - cosine * cosine) / (index * index));
+    const std::complex<double> rs = (cosine - index * inside) / (cosine + index * inside);
+    const std::complex<double> rp = (index * cosine - inside) / (index * cosine + inside);
+    return .5 * (std::norm(rs) + std::norm(rp));
+}
+
+/// Reflectance of a boundary for diffuse light from the thin side (Walsh 1926, Duntley 1942).
+double diffuseFresnelOutside(double n) {
+    const double n2 = n * n, n4 = n2 * n2;
+    return .5 + (n - 1) * (3 * n + 1) / (6 * (n + 1) * (n + 1)) +
+           n2 * (n2 - 1) * (n2 - 1) / std::pow(n2 + 1, 3) * std::log((n - 1) / (n + 1)) -
+           2 * n * n2 * (n2 + 2 * n - 1) / ((n2 + 1) * (n4 - 1)) +
+           8 * n4 * (n4 + 1) / ((n2 + 1) * (n4 - 1) * (n4 - 1)) * std::log(n);
+}
+
+/// The same from the dense side: what does not leave, by reciprocity.
+double diffuseFresnelInside(double n) {
+    return 1 - (1 - diffuseFresnelOutside(n)) / (n * n);
+}
+
+std::string dielectric(const std::string& more = {}) {
+    return fmt::format("Material \"dielectric\" \"float eta\" [ {} ] {}\n", kIor, more);
+}
+
+/// A view of the origin whose rays make an angle of the given cosine with +z.
+std::string slantedView(double cosine) {
+    return orthographicView({.5 * std::sqrt(1 - cosine * cosine), 0, .5 * cosine}, {0, 0, 0}, {0, 1, 0}, 1e-3);
+}
+
+/// A plane of the material at z = 0 under a sky of radiance 1, seen under an angle.
+AnalyticScene underSky(const std::string& id, const std::string& claim, const std::string& material, double cosine,
+                       double value, int maxDepth = 1) {
+    return {.id = id,
+            .claim = claim,
+            .text = sceneText({.camera = slantedView(cosine), .maxDepth = maxDepth},
+                              constantSky(1) + material + floorSquare(10)),
+            .expected = grey(value)};
+}
+
+AnalyticScene exactly(AnalyticScene scene) {
+    scene.exact = true;
+    scene.samplesPerPixel = 4;
+    return scene;
+}
+
+void addConductors(std::vector<AnalyticScene>& scenes) {
+    const std::string metal = "Material \"conductor\" \"rgb eta\" [ .2 .2 .2 ] \"rgb k\" [ 3 3 3 ]\n";
+    scenes.push_back(
+        exactly(underSky("F11", "smooth conductor of index .2 + 3i, normal incidence", metal, 1, fresnel(1, {.2, 3}))));
+    scenes.push_back(exactly(underSky("F11 slanted", "the same at 75 degrees", metal, std::cos(75 * kPi / 180),
+                                      fresnel(std::cos(75 * kPi / 180), {.2, 3}))));
+    AnalyticScene coloured =
+        exactly(underSky("F12", "smooth conductor given by its reflectance (.3, .5, .7), normal incidence",
+                         "Material \"conductor\" \"rgb reflectance\" [ .3 .5 .7 ]\n", 1, 0));
+    coloured.expected = {.3, .5, .7};
+    scenes.push_back(coloured);
+}
+
+void addMicrofacets(std::vector<AnalyticScene>& scenes) {
+    const auto add = [&](double alphaX, double alphaY, double cosine, const std::string& frame, double value) {
+        const std::string metal = fmt::format(
+            "{}Material \"conductor\" \"rgb eta\" [ 1 1 1 ] \"rgb k\" [ 1000 1000 1000 ] \"bool remaproughness\" false "
+            "\"float uroughness\" [ {} ] \"float vroughness\" [ {} ]\n",
+            frame, alphaX, alphaY);
+        scenes.push_back(underSky(fmt::format("G {} {} {}{}", alphaX, alphaY, cosine, frame.empty() ? "" : " turned"),
+                                  "GGX mirror under a sky of radiance 1: directional albedo of single scattering",
+                                  metal, cosine, value));
+    };
+    add(.1, .1, 1, "", .9883040565);
+    add(.1, .1, .5, "", .9692049844);
+    add(.1, .1, .1, "", .8834550019);
+    add(.5, .5, 1, "", .6878485151);
+    add(.5, .5, .5, "", .6982506969);
+    add(.5, .5, .1, "", .8601050727);
+    add(1, 1, 1, "", 1 - std::log(2.));
+    add(1, 1, .5, "", .4506938557);
+    add(1, 1, .1, "", .7602104727);
+    // Anisotropic: the plane's uv run along x and y, so x is the rough direction; turned, it is the smooth one.
+    add(.6, .2, 1, "", .740246);
+    add(.6, .2, .5, "", .765985);
+    add(.6, .2, .5, "Rotate 90 0 0 1\n", .710240);
+
+    scenes.push_back(underSky("G glass", "rough glass boundary, alpha .5, at 60 degrees from outside: R + T / n^2",
+                              dielectric("\"bool remaproughness\" false \"float roughness\" [ .5 ]"), .5, .421134));
+    scenes.push_back(underSky(
+        "G glass inside", "rough glass boundary, alpha .3, at 60 degrees from inside: R + T n^2",
+        dielectric("\"bool remaproughness\" false \"float roughness\" [ .3 ]") + "ReverseOrientation\n", .5, .948672));
+}
+
+/// One boundary over a black floor: only what it reflects is seen.
+void addBoundaries(std::vector<AnalyticScene>& scenes) {
+    const std::string floor = scoped(black() + rectangleZ(-50, 50, -50, 50, -.5, Facing::Positive));
+    const double brewster = 1 / std::sqrt(1 + kIor * kIor);
+    for (const double cosine : {1., brewster, .2}) {
+        AnalyticScene s = underSky(cosine == 1          ? "F1"
+                                   : cosine == brewster ? "F2"
+                                                        : "F2 grazing",
+                                   fmt::format("reflectance of glass at cosine {:.3f}", cosine), floor + dielectric(),
+                                   cosine, fresnel(cosine, kIor), 3);
+        s.samplesPerPixel = 1024;
+        scenes.push_back(s);
+    }
+}
+
+/// Glass between z = 0 and z = -1, all interreflections, seen along the normal.
+void addSlabs(std::vector<AnalyticScene>& scenes) {
+    const std::string slab =
+        rectangleZ(-50, 50, -50, 50, 0, Facing::Positive) + rectangleZ(-50, 50, -50, 50, -1, Facing::Negative);
+    const std::string behind = emitter(1, rectangleZ(-5, 5, -5, 5, -2, Facing::Positive));
+    const std::string before = emitter(1, rectangleZ(-5, 5, -5, 5, 2, Facing::Negative));
+    const double r = fresnel(1, kIor), a = std::exp(-1.);
+    const auto add = [&](const std::string& id, const std::string& claim, const std::string& integrator,
+                         const std::string& world, double value) {
+        scenes.push_back(
+            {.id = id,
+             .claim = claim,
+             .text = sceneText({.camera = viewOfOrigin(), .maxDepth = 40, .integrator = integrator}, world),
+             .expected = grey(value),
+             .samplesPerPixel = 256});
+    };
+    add("F3", "clear glass slab: transmission (1 - R) / (1 + R)", "path", behind + dielectric() + slab,
+        (1 - r) / (1 + r));
+    add("F3b", "clear glass slab: reflection 2 R / (1 + R)", "path", before + dielectric() + slab, 2 * r / (1 + r));
+    scenes.back().samplesPerPixel = 1024;
+
+    const std::string fog =
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1 1 1 ] "
+        "\"rgb sigma_s\" [ 0 0 0 ]\n";
+    const std::string filled = "MediumInterface \"fog\" \"\"\n" + slab;
+    add("F4", "glass slab with an optical depth of 1: (1 - R)^2 a / (1 - R^2 a^2), a = 1/e", "volpath",
+        fog + behind + scoped(dielectric() + filled), (1 - r) * (1 - r) * a / (1 - r * r * a * a));
+    add("E1", "absorbing slab without a boundary, optical depth 1: 1/e", "volpath",
+        fog + behind + scoped("Material \"interface\"\n" + filled), a);
+    scenes.back() = exactly(scenes.back());
+
+    AnalyticScene ball =
+        underSky("E1 ball", "absorbing ball of index 1 and optical depths (1, 2, 3) along its diameter", "", 1, 0);
+    ball.text = sceneText(
+        {.camera = orthographicView({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 1e-3), .maxDepth = 10, .integrator = "volpath"},
+        "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ .5 1 1.5 ] "
+        "\"rgb sigma_s\" [ 0 0 0 ]\n" +
+            constantSky(1) +
+            scoped("MediumInterface \"ink\" \"\"\nMaterial \"dielectric\" \"float eta\" [ 1 ]\n" + sphere(1)));
+    ball.expected = {std::exp(-1.), std::exp(-2.), std::exp(-3.)};
+    scenes.push_back(exactly(ball));
+}
+
+/// Diffuse light on a boundary. A small white receiver in a plate that emits 1 sees the plate again in a boundary above
+/// it; or it sees a sky through that boundary. The plates are so large that their ends do not matter.
+void addDiffuseFresnel(std::vector<AnalyticScene>& scenes) {
+    const std::string plate = emitter(1, rectangleZ(-1e4, 1e4, -1e4, 1e4, -1e-3, Facing::Positive));
+    const std::string receiver = diffuse(1) + floorSquare(.005);
+    const auto add = [&](const std::string& id, const std::string& claim, const std::string& lights, Facing outside,
+                         double value) {
+        scenes.push_back(
+            {.id = id,
+             .claim = claim,
+             .text = sceneText({.camera = viewOfOrigin(), .maxDepth = 4},
+                               lights + receiver + dielectric() + rectangleZ(-1e4, 1e4, -1e4, 1e4, 1, outside)),
+             .expected = grey(value)});
+    };
+    add("F8", "diffuse reflectance of glass from outside (Walsh)", plate, Facing::Negative,
+        diffuseFresnelOutside(kIor));
+    scenes.back().samplesPerPixel = 2048;
+    add("F8 transmitted", "diffuse transmittance of glass from outside, sky beyond: (1 - F) / n^2", constantSky(1),
+        Facing::Negative, (1 - diffuseFresnelOutside(kIor)) / (kIor * kIor));
+    add("F9", "diffuse reflectance of glass from inside", plate, Facing::Positive, diffuseFresnelInside(kIor));
+    scenes.back().samplesPerPixel = 256;
+}
+
+/// Directional reflectance of a smooth coat of index 1.5 and optical thickness t over a Lambert base, at most five
+/// times at the base: what the random walk of the layered model comes to (the format's "coateddiffuse").
+double coated(double cosine, double base, double thickness, int baseBounces) {
+    // Kubelka-like averages over the directions below the coat; the reflectance has a kink at the critical angle.
+    const double critical = std::sqrt(1 - 1 / (kIor * kIor));
+    const auto reflected = [&](double mu) { return 2 * mu * fresnel(mu, 1 / kIor) * std::exp(-2 * thickness / mu); };
+    const auto leaving = [&](double mu) { return 2 * mu * (1 - fresnel(mu, 1 / kIor)) * std::exp(-thickness / mu); };
+    const double again = integrate(1e-6, critical, reflected) + integrate(critical, 1, reflected);
+    const double out = integrate(critical, 1, leaving);
+    const double below = std::sqrt(1 - (1 - cosine * cosine) / (kIor * kIor)), top = fresnel(cosine, kIor);
+    double series = 0;
+    for (int k = 0; k < baseBounces; ++k)
+        series += base * std::pow(base * again, k) * out;
+    return top + (1 - top) * std::exp(-thickness / below) * series;
+}
+
+void addCoats(std::vector<AnalyticScene>& scenes) {
+    const double fi = diffuseFresnelInside(kIor), r = fresnel(1, kIor), base = .8;
+    const double ideal = r + (1 - r) * base * (1 - fi) / (1 - base * fi);
+    AnalyticScene layered =
+        underSky("F10", "smooth glass over a Lambert base of .8, as two surfaces, normal view", "", 1, ideal);
+    layered.text = sceneText({.camera = viewOfOrigin(), .maxDepth = 100},
+                             constantSky(1) + diffuse(base) + rectangleZ(-1e4, 1e4, -1e4, 1e4, -.01, Facing::Positive) +
+                                 dielectric() + rectangleZ(-1e4, 1e4, -1e4, 1e4, 0, Facing::Positive));
+    layered.samplesPerPixel = 128;
+    scenes.push_back(layered);
+
+    scenes.push_back(
+        underSky("F10 coat", "the same as a coated material without thickness",
+                 "Material \"coateddiffuse\" \"rgb reflectance\" [ .8 .8 .8 ] \"float thickness\" [ 1e-7 ] "
+                 "\"integer maxdepth\" [ 200 ]\n",
+                 1, ideal));
+    for (const double degrees : {0., 45., 60., 75.}) {
+        const double cosine = std::cos(degrees * kPi / 180);
+        scenes.push_back(
+            underSky(fmt::format("F13 {}", degrees),
+                     "the coated diffuse material with its defaults: thickness .01, five bounces of the base",
+                     "Material \"coateddiffuse\"\n", cosine, coated(cosine, .5, .01, 5)));
+    }
+}
+
+}  // namespace
+
+std::vector<AnalyticScene> analyticMaterials() {
+    std::vector<AnalyticScene> scenes;
+    addConductors(scenes);
+    addMicrofacets(scenes);
+    addBoundaries(scenes);
+    addSlabs(scenes);
+    addDiffuseFresnel(scenes);
+    addCoats(scenes);
+    return scenes;
+}
+
+}  // namespace penumbra
