@@ -11,6 +11,9 @@
 // Invariants: ids of tag t are firstId(t) .. firstId(t + 1) - 1, and the row of an id is id - firstId(t).
 #pragma once
 
+#include "materials/coated_diffuse.h"
+#include "materials/conductor.h"
+#include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/interface.h"
 
@@ -21,7 +24,7 @@
 
 namespace penumbra {
 
-using MaterialTypes = TypeList<DiffuseMaterial, InterfaceMaterial>;
+using MaterialTypes = TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial>;
 
 /// What an integrator asks of a closure.
 template <class B, class F>

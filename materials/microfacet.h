@@ -1,0 +1,115 @@
+// The GGX (Trowbridge-Reitz) distribution of microfacets with Smith's height-correlated masking, and the roughness
+// parameters that rough materials share.
+//
+// Conventions: w, wo, wi, m are unit vectors in the local frame; those given to Ggx have z >= 0 (the caller mirrors what
+// lies below). alpha is per axis, x along the tangent.
+// Thread safety: plain values.
+// Sources: Walter, Marschner, Li & Torrance, EGSR 2007 (microfacet BSDFs); Heitz, JCGT 3(2), 2014 (masking, eq. 71-99,
+// anisotropy); Dupuy & Benyoub, CGF 42(8), 2023 (visible normals by spherical caps).
+//
+// Everything below is written in L(w) = sqrt((ax x)^2 + (ay y)^2 + z^2), because Smith's terms then have no quotient that
+// fails at grazing angles: Lambda(w) = (L/z - 1)/2, so G1(w) = 2z/(z + L), and with o = wo.z, i = wi.z
+//   G2 / (4 o i) = 1 / (2 (i L(wo) + o L(wi))),     visible density D_w(m) / (4 w.m) = D / (2 (o + L(wo))).
+#pragma once
+
+#include "materials/material.h"
+
+namespace penumbra {
+
+/// Below this alpha (both axes) a surface counts as perfectly smooth, as the scene format has it.
+inline constexpr float kSmoothAlpha = 1e-3f;
+
+/// Rough reflection without its Fresnel factor.
+template <class F>
+struct GgxReflection {
+    F fCos;  ///< D G2 / (4 o i) times i
+    F pdf;   ///< of reflecting wo at a visible normal
+};
+
+template <class F>
+struct Ggx {
+    F ax, ay;
+
+    /// D(m), where m is h made unit. h.z >= 0; |h|^2 is given because callers have it.
+    F density(const Vec3<F>& h, F lengthSquaredOfH) const {
+        const F a = ax * ay;
+        const F q = sqr(h.x * ay) + sqr(h.y * ax) + sqr(h.z * a);
+        const F ratio = lengthSquaredOfH * a / max(q, F(1e-36f));
+        return select(q > F(1e-36f), a * F(kInvPi) * ratio * ratio, F(0.f));
+    }
+    /// L(w) of the file's comment.
+    F shape(const Vec3<F>& w) const { return sqrt(sqr(ax * w.x) + sqr(ay * w.y) + w.z * w.z); }
+
+    /// G2 / G1(wo): the weight of a sampled visible normal, for wi above or (|z| taken) below the surface.
+    F shadowing(const Vec3<F>& wo, const Vec3<F>& wi) const {
+        const F o = wo.z, i = abs(wi.z), lo = shape(wo);
+        return i * (o + lo) / max(i * lo + o * shape(wi), F(1e-30f));
+    }
+
+    /// `h` = wo + wi.
+    GgxReflection<F> reflection(const Vec3<F>& wo, const Vec3<F>& wi, F densityOfH) const {
+        const F o = wo.z, i = wi.z, lo = shape(wo);
+        const F half = F(0.5f) * densityOfH;
+        return {half * i / max(i * lo + o * shape(wi), F(1e-30f)), half / (o + lo)};
+    }
+
+    /// A normal with the density of those visible from w: G1(w) D(m) max(0, w.m) / w.z.
+    Vec3<F> sampleVisible(const Vec3<F>& w, const Vec2<F>& u) const {
+        // In the space where the surface is a unit hemisphere, reflected directions are uniform on a cap.
+        const Vec3<F> v = normalize(Vec3<F>{ax * w.x, ay * w.y, w.z});
+        const F hz = (F(1.f) - u.y) * (F(1.f) + v.z);  // z of cap point + v, formed without cancellation: never 0
+        const F z = hz - v.z;
+        const F radius = safeSqrt(F(1.f) - z * z);
+        F s, c;
+        sinCos(F(kTwoPi) * u.x, s, c);
+        return normalize(Vec3<F>{ax * (radius * c + v.x), ay * (radius * s + v.y), hz});
+    }
+};
+
+/// A surface's GGX at a hit. Smooth lanes carry some harmless alpha.
+template <class F>
+struct SurfaceRoughness {
+    Ggx<F> ggx;
+    Mask<F> smooth;
+};
+
+/// The members that a rough material has, and how they are read from a scene and at a hit. Derive from it.
+struct RoughnessInputs {
+    ScalarInput uRoughness, vRoughness;
+    std::uint32_t remapRoughness = 1;  ///< alpha is the square root of roughness
+
+    static RoughnessInputs make(MaterialInput& input) {
+        const ScalarInput both = input.scalar("roughness", 0.f);
+        RoughnessInputs r{input.scalar("uroughness", both), input.scalar("vroughness", both), 1u};
+        r.remapRoughness = input.parameters().boolean("remaproughness", true) ? 1u : 0u;
+        return r;
+    }
+    bool isTextured() const { return uRoughness.texture != kNoTexture || vRoughness.texture != kNoTexture; }
+
+    template <class F>
+    static F alpha(F roughness, const Mask<F>& remap) {
+        const F r = clamp(roughness, F(0.f), F(1e3f));
+        return select(remap, sqrt(r), r);
+    }
+    template <class F>
+    static SurfaceRoughness<F> surface(F alphaX, F alphaY) {
+        const Mask<F> smooth = max(alphaX, alphaY) < F(kSmoothAlpha);
+        const auto usable = [&](F a) { return select(smooth, F(1.f), max(a, F(1e-4f))); };
+        return {{usable(alphaX), usable(alphaY)}, smooth};
+    }
+
+    /// The roughness of M, a type derived from this one.
+    template <class F, class M>
+    static SurfaceRoughness<F> surface(const Records<F, M>& m, const ShadingContext<F>& at) {
+        const Mask<F> remap = m(static_cast<std::uint32_t M::*>(&RoughnessInputs::remapRoughness)) != UInt<F>(0u);
+        return surface(alpha(at.scalar(m, static_cast<ScalarInput M::*>(&RoughnessInputs::uRoughness)), remap),
+                       alpha(at.scalar(m, static_cast<ScalarInput M::*>(&RoughnessInputs::vRoughness)), remap));
+    }
+};
+
+inline constexpr ParameterInfo kRoughnessParameter{"float", "roughness", "0", "of the microfacets; 0 is smooth; texture or number"};
+inline constexpr ParameterInfo kURoughnessParameter{"float", "uroughness", "roughness", "roughness along the tangent"};
+inline constexpr ParameterInfo kVRoughnessParameter{"float", "vroughness", "roughness", "roughness across the tangent"};
+inline constexpr ParameterInfo kRemapRoughnessParameter{"bool", "remaproughness", "true", "alpha = sqrt(roughness), else alpha = roughness"};
+
+}  // namespace penumbra
