@@ -1,5 +1,6 @@
 #include "core/geometry/accelerator.h"
 
+#include "core/base/error.h"
 #include "core/geometry/quadrics.h"
 
 #if PENUMBRA_EMBREE_MAJOR >= 4

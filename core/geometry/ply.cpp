@@ -77,7 +77,7 @@ public:
         const char* const begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
         double value = 0;
         const auto [rest, status] = std::from_chars(begin, end, value);
-        if (rest != end || status == std::errc::invalid_argument) throw BadEntry{"found something that is no number"};
+        if (rest != end || status == std::errc::invalid_argument) throw BadEntry{"expected a number, found " + quote(word)};
         if (status == std::errc::result_out_of_range) value = outOfRangeValue(word);
         return value;
     }
@@ -117,7 +117,7 @@ private:
         const std::size_t most = std::min(bytes_.available(), kLongestWord + 1);
         std::size_t n = 1;
         while (n < most && !isBlank(bytes_.data()[n])) ++n;
-        if (n > kLongestWord) throw BadEntry{"found a word of more than 256 letters"};
+        if (n > kLongestWord) throw BadEntry{"expected a number, found more than 256 letters without a blank"};
         bytes_.consume(n);
         return {bytes_.data() - n, n};
     }
@@ -265,8 +265,8 @@ private:
         if (!corners) corners = findFaceProperty("vertex_index", true);
         if (!corners) throw Error(ErrorKind::BadData, file_ + ": element 'face' has no list 'vertex_indices'");
         const PlyProperty* number = findFaceProperty("face_indices", false);
-        mesh_.indices.reserve(3 * face_->count);
-        if (number) mesh_.faceIndices.reserve(face_->count);
+        mesh_.indices.reserve(3 * mostFacesLeft(*corners, 3));
+        if (number) mesh_.faceIndices.reserve(mostFacesLeft(*corners, 3));
         for (; entry_ < face_->count; ++entry_) {
             const std::size_t before = mesh_.triangleCount();
             std::int32_t faceNumber = 0;
@@ -277,6 +277,12 @@ private:
             }
             if (number) mesh_.faceIndices.insert(mesh_.faceIndices.end(), mesh_.triangleCount() - before, faceNumber);
         }
+    }
+
+    /// How many faces of so many corners may follow: a bound for memory that a file of empty polygons cannot inflate.
+    std::uint64_t mostFacesLeft(const PlyProperty& corners, std::uint64_t cornersOfEach) const {
+        const std::uint64_t bytesOfIndex = header_.format == PlyFormat::Ascii ? 2 : sizeOf(corners.type);
+        return std::min(face_->count - entry_, bytes_.mostBytesLeft() / (1 + cornersOfEach * bytesOfIndex) + 1);
     }
 
     const PlyProperty* findFaceProperty(std::string_view name, bool isList) const {
@@ -295,7 +301,8 @@ private:
         std::uint32_t corner[4];
         for (std::uint64_t i = 0; i < count; ++i) corner[i] = toVertexIndex(decoder.scalar(property.type));
         if (count == 4) {
-            if (quads_.empty()) mesh_.indices.reserve(6 * face_->count);   // where one is a quad, most are
+            // Where one is a quad, most are.
+            if (quads_.empty()) mesh_.indices.reserve(mesh_.indices.size() + 6 * mostFacesLeft(property, 4));
             quads_.push_back(static_cast<std::uint32_t>(mesh_.triangleCount()));
         }
         mesh_.indices.insert(mesh_.indices.end(), corner, corner + 3);

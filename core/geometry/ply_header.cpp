@@ -47,7 +47,7 @@ public:
             if (words[0] == "format") parseFormat(words);
             else if (words[0] == "element") parseElement(words);
             else if (words[0] == "property") parseProperty(words);
-            else fail("unknown word " + quoted(words[0]) + "; expected format, element, property, comment, obj_info or end_header");
+            else fail("unknown word " + quote(words[0]) + "; expected format, element, property, comment, obj_info or end_header");
         }
         if (!hasFormat_) fail("the header has no 'format' line");
         checkSizes();
@@ -83,19 +83,19 @@ private:
         if (words[1] == "ascii") header_.format = PlyFormat::Ascii;
         else if (words[1] == "binary_little_endian") header_.format = PlyFormat::BinaryLittleEndian;
         else if (words[1] == "binary_big_endian") header_.format = PlyFormat::BinaryBigEndian;
-        else fail("unknown format " + quoted(words[1]) + "; known: ascii, binary_little_endian, binary_big_endian");
-        if (words[2] != "1.0") fail("unknown version " + quoted(words[2]) + "; known: 1.0");
+        else fail("unknown format " + quote(words[1]) + "; known: ascii, binary_little_endian, binary_big_endian");
+        if (words[2] != "1.0") fail("unknown version " + quote(words[2]) + "; known: 1.0");
         hasFormat_ = true;
     }
 
     void parseElement(const std::vector<std::string_view>& words) {
         if (words.size() != 3) fail("expected 'element', its name and its count");
-        if (header_.find(words[1])) fail("a second element " + quoted(words[1]));
+        if (header_.find(words[1])) fail("a second element " + quote(words[1]));
         PlyElement element;
         element.name = words[1];
         const char* const end = words[2].data() + words[2].size();
         const auto [rest, status] = std::from_chars(words[2].data(), end, element.count);
-        if (rest != end || status != std::errc()) fail("bad count " + quoted(words[2]) + " of element " + quoted(words[1]));
+        if (rest != end || status != std::errc()) fail("bad count " + quote(words[2]) + " of element " + quote(words[1]));
         header_.elements.push_back(std::move(element));
     }
 
@@ -108,13 +108,13 @@ private:
         if (property.isList) {
             property.countType = parseType(words[2]);
             if (property.countType == PlyType::Float32 || property.countType == PlyType::Float64)
-                fail("the length of a list cannot be of type " + quoted(words[2]));
+                fail("the length of a list cannot be of type " + quote(words[2]));
         }
         property.type = parseType(words[words.size() - 2]);
         property.name = words.back();
         std::vector<PlyProperty>& known = header_.elements.back().properties;
         if (std::any_of(known.begin(), known.end(), [&](const PlyProperty& p) { return p.name == property.name; }))
-            fail("a second property " + quoted(property.name) + " of element " + quoted(header_.elements.back().name));
+            fail("a second property " + quote(property.name) + " of element " + quote(header_.elements.back().name));
         known.push_back(std::move(property));
     }
 
@@ -123,7 +123,7 @@ private:
             if (word == name) return type;
         std::vector<std::string> known;
         for (const auto& [name, type] : kTypeNames) known.push_back(name);
-        fail("unknown type " + quoted(word) + suggestion(word, known));
+        fail("unknown type " + quote(word) + suggestion(word, known));
     }
 
     /// The fewest bytes an entry can take: all its lists empty; in a text, a digit and a blank for each value.
@@ -142,7 +142,7 @@ private:
             const std::uint64_t least = leastBytes(element);
             if (least == 0) continue;   // without properties there are no data
             if (element.count > left / least)
-                fail("element " + quoted(element.name) + " has " + std::to_string(element.count) + " entries of at least " +
+                fail("element " + quote(element.name) + " has " + std::to_string(element.count) + " entries of at least " +
                      std::to_string(least) + " bytes, which is more than the file holds");
             left -= element.count * least;
         }

@@ -39,7 +39,7 @@ QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const V
     if (q.kind == ShapeKind::Disk) {
         const F t = (F(q.zMin) - o.z) / d.z;   // a parallel ray gives inf or NaN, which no comparison passes
         const Vec3<F> p = {o.x + t * d.x, o.y + t * d.y, F(q.zMin)};
-        return {t, (t > near) & (t < far) & insideQuadricPart(q, p)};
+        return {t, Mask<F>((t > near) & (t < far) & insideQuadricPart(q, p))};
     }
     const F r = F(q.radius);
     const F a = dot(d, d), b = dot(o, d);
@@ -56,7 +56,7 @@ QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const V
     const Mask<F> meets = discriminant >= F(0.f);
     const Mask<F> firstOk = meets & (first > near) & (first < far) & insideQuadricPart(q, o + d * first);
     const Mask<F> secondOk = meets & (second > near) & (second < far) & insideQuadricPart(q, o + d * second);
-    return {select(firstOk, first, second), firstOk | secondOk};
+    return {select(firstOk, first, second), Mask<F>(firstOk | secondOk)};
 }
 
 /// The surface at a hit, in object space.

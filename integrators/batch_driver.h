@@ -1,0 +1,347 @@
+// The batch driver: the only place that gathers, sorts, packs and scatters paths. It runs the paths of a tile through the
+// steps of an integrator, about a thousand at a time.
+//
+// One step: trace the live rays in packets of eight; sort them by the material they met (a miss is a kind of its own); hand
+// each group of eight of one kind to the integrator, which adds emission, asks for a shadow ray and packs the ray that goes
+// on; trace the shadow rays and add what arrives. Paths end in lockstep: there is no refill, so every number of a path
+// depends on its own address alone, and lanes, batch size and tile order change no bit.
+//
+// A Shader is the integrator's part, generic over lanes:
+//   template <class F, class M> void shade(Step<F>&, const RayGroup<F>&, const Hit<F>&, const UInt<F>& material) const noexcept;
+//   template <class F> void miss(Step<F>&, const RayGroup<F>&) const noexcept;
+#pragma once
+
+#include "core/geometry/surface_point.h"
+#include "integrators/path_batch.h"
+
+#include <xmmintrin.h>
+
+namespace penumbra {
+
+/// Flush-to-zero and denormals-are-zero while in scope; set inside the task, because oneTBB restores the flags for each.
+class FlushDenormals {
+public:
+    FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | 0x8040u); }
+    ~FlushDenormals() { _mm_setcsr(saved_); }
+    FlushDenormals(const FlushDenormals&) = delete;
+    FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+private:
+    unsigned saved_;
+};
+
+/// What a shader works with: the scene, the batch and where its results go.
+template <class F>
+struct Step {
+    const Scene& scene;
+    PathBatch& batch;
+    std::uint32_t vertex;       ///< of the hit; the camera is vertex 0
+    int nextCount;              ///< rays packed so far
+
+    void add(const RayGroup<F>& g, const Spectrum<F>& value) { addToSlot(batch.slots, g.slot, value); }
+    void shadow(const RayGroup<F>& g, const Vec3<F>& origin, const Vec3<F>& direction, F far, const Spectrum<F>& value,
+                const Mask<F>& wanted) {
+        const unsigned keep = bits(Mask<F>(wanted & g.live));
+        if (keep) pushShadow(batch, origin, direction, far, value, g.slot, keep);
+    }
+    void go(const RayGroup<F>& g, const NextRay<F>& ray, const Mask<F>& wanted) {
+        // Embree aborts on rays that are not finite (or beyond 1.8e18); such a path becomes an invalid sample.
+        const Vec3<F> o = abs(ray.origin), d = abs(ray.direction);
+        const Mask<F> sound = (maxComponent(o) < F(1e18f)) & (o.x + o.y + o.z < F(1e19f)) & (d.x + d.y + d.z < F(2.f));
+        const Mask<F> going = wanted & g.live;
+        if (const unsigned broken = bits(Mask<F>(going & !sound)))
+            for (unsigned left = broken; left; left &= left - 1)
+                batch.slots.r[lane(g.slot, std::countr_zero(left))] = std::numeric_limits<float>::quiet_NaN();
+        const unsigned keep = bits(Mask<F>(going & sound));
+        if (keep) pushRay(batch, nextCount, ray, keep);
+    }
+};
+
+namespace detail {
+
+template <class F>
+RayGroup<F> gatherGroup(const PathBatch& batch, const RayBuffer& r, const UInt<F>& at, int liveCount, bool hasMotion) {
+    RayGroup<F> g;
+    g.origin = {gather(r.originX, at), gather(r.originY, at), gather(r.originZ, at)};
+    g.direction = {gather(r.directionX, at), gather(r.directionY, at), gather(r.directionZ, at)};
+    g.throughput = {gather(r.throughputR, at), gather(r.throughputG, at), gather(r.throughputB, at)};
+    g.bsdfPdf = gather(r.bsdfPdf, at);
+    g.etaScale = gather(r.etaScale, at);
+    g.coneWidth = gather(r.coneWidth, at);
+    g.slot = gather(r.slot, at);
+    g.depth = gather(r.depth, at);
+    g.medium = gather(r.medium, at);
+    g.time = hasMotion ? gather(batch.slots.time, g.slot) : F(0.f);
+    g.address = {gather(batch.slots.seed, g.slot), gather(batch.slots.index, g.slot)};
+    g.live = firstLanes<F>(liveCount);
+    g.liveBits = bits(g.live);
+    return g;
+}
+
+template <class F>
+Hit<F> gatherHit(const HitBuffer& h, const UInt<F>& at) {
+    return {gather(h.geometry, at), gather(h.primitive, at), gather(h.instance, at), gather(h.u, at), gather(h.v, at), gather(h.t, at)};
+}
+
+/// Lane k of a group of `count` live rays, or of the last live one.
+template <class F>
+UInt<F> groupIndices(const std::uint16_t* order, int count) {
+    UInt<F> at = loadIndices<F>(order);
+    if (count < kLanes<F>) at = select(firstLanes<F>(count), at, UInt<F>(order[count - 1]));
+    return at;
+}
+
+}  // namespace detail
+
+template <class F, class Shader>
+class BatchDriver {
+public:
+    BatchDriver(const Scene& scene, const Shader& shader, const RenderControls& controls, Film& film, RenderCounts& counts)
+        : scene_(scene), shader_(shader), controls_(controls), film_(film), counts_(counts), batch_(threadBatch()) {}
+
+    void render(const Tile& tile, SampleRange samples) noexcept {
+        const FlushDenormals flush;
+        const std::uint32_t perPixel = samples.end - samples.begin;
+        const std::uint64_t total = std::uint64_t(tile.x1 - tile.x0) * std::uint64_t(tile.y1 - tile.y0) * perPixel;
+        for (std::uint64_t first = 0; first < total; first += std::uint64_t(controls_.batchSize)) {
+            const std::uint64_t left = total - first;
+            begin(tile, samples, first, left < std::uint64_t(controls_.batchSize) ? int(left) : controls_.batchSize);
+            for (std::uint32_t vertex = 1; batch_.live > 0; ++vertex) step(vertex);
+            end();
+        }
+    }
+
+private:
+    static constexpr int W = kLanes<F>;
+
+    /// Makes the camera rays of paths first .. first + count of the tile. Samples of a pixel are neighbours, so packets start coherent.
+    void begin(const Tile& tile, SampleRange samples, std::uint64_t first, int count) {
+        SlotBuffer& s = batch_.slots;
+        const std::uint32_t perPixel = samples.end - samples.begin, tileWidth = std::uint32_t(tile.x1 - tile.x0);
+        const std::uint32_t filmWidth = std::uint32_t(film_.crop().width());
+        std::uint64_t pixelInTile = first / perPixel;
+        std::uint32_t sample = std::uint32_t(first % perPixel);
+        for (int i = 0; i < count; ++i) {
+            const int x = tile.x0 + int(pixelInTile % tileWidth), y = tile.y0 + int(pixelInTile / tileWidth);
+            s.pixel[i] = std::uint32_t(y) * filmWidth + std::uint32_t(x);
+            s.sample[i] = samples.begin + sample;
+            s.rasterX[i] = float(x + film_.crop().x0);
+            s.rasterY[i] = float(y + film_.crop().y0);
+            if (++sample == perPixel) sample = 0, ++pixelInTile;
+        }
+        for (int i = 0; i < count; i += W) cameraRays(i);
+        batch_.live = count;
+        batch_.current = 0;
+        pathCount_ = count;
+        counts_.paths += std::uint64_t(count);
+    }
+
+    void cameraRays(int at) {
+        SlotBuffer& s = batch_.slots;
+        RayBuffer& r = batch_.rays[0];
+        const UInt<F> slot = UInt<F>(std::uint32_t(at)) + laneIndices<F>();
+        // The number of a pixel is that of the whole picture, so a crop renders the same samples.
+        const F x = load<F>(s.rasterX + at), y = load<F>(s.rasterY + at);
+        const UInt<F> pixel = toUInt(y) * UInt<F>(std::uint32_t(scene_.film.width)) + toUInt(x);
+        const SampleAddress<F> a = addressOf<F>(pixel, load<F>(s.sample + at), std::uint32_t(film_.replicates()), scene_.seed);
+        const FilterSample<F> f = scene_.filter.sample(scene_.sampler.get2<F>(a, 0, Dim::Filter));
+        const Vec2<F> raster = {x + F(0.5f) + f.offset.x, y + F(0.5f) + f.offset.y};
+        Vec2<F> lens = {F(0.5f), F(0.5f)};
+        if (scene_.camera.usesLens()) lens = scene_.sampler.get2<F>(a, 0, Dim::Lens);
+        F shutter = F(0.5f);
+        if (scene_.hasMotion) shutter = scene_.sampler.get1<F>(a, 0, Dim::Time);
+        const CameraRay<F> ray = scene_.camera.ray(raster, lens, shutter);
+        store(s.seed + at, a.seed);
+        store(s.index + at, a.index);
+        store(s.time + at, ray.time);
+        store(s.sign + at, f.sign);
+        for (float* v : {s.r + at, s.g + at, s.b + at}) store(v, F(0.f));
+        store(s.covered + at, UInt<F>(0u));
+        store(r.originX + at, ray.origin.x);
+        store(r.originY + at, ray.origin.y);
+        store(r.originZ + at, ray.origin.z);
+        store(r.directionX + at, ray.direction.x);
+        store(r.directionY + at, ray.direction.y);
+        store(r.directionZ + at, ray.direction.z);
+        for (float* v : {r.throughputR + at, r.throughputG + at, r.throughputB + at, r.etaScale + at}) store(v, F(1.f));
+        store(r.bsdfPdf + at, F(0.f));
+        store(r.coneWidth + at, ray.coneWidth);
+        store(r.slot + at, slot);
+        store(r.depth + at, UInt<F>(0u));
+        store(r.medium + at, UInt<F>(scene_.cameraMedium));
+    }
+
+    void step(std::uint32_t vertex) {
+        traceNearest();
+        sortByMaterial();
+        Step<F> step{scene_, batch_, vertex, 0};
+        batch_.shadowCount = 0;
+        const RayBuffer& r = batch_.now();
+        int begin = 0;
+        for (unsigned tag = 0; tag < MaterialTable::kTags; ++tag) {
+            const int end = runEnd_[tag];
+            if (end > begin)
+                dispatch(MaterialTypes{}, tag, [&]<class M>() { shadeRun<M>(step, r, begin, end, vertex == 1); });
+            begin = end;
+        }
+        missed(step, r, begin);
+        traceShadows();
+        batch_.live = step.nextCount;
+        batch_.current = 1 - batch_.current;
+    }
+
+    template <class M>
+    void shadeRun(Step<F>& step, const RayBuffer& r, int begin, int end, bool first) {
+        for (int i = begin; i < end; i += W) {
+            const int n = end - i < W ? end - i : W;
+            const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
+            const RayGroup<F> g = detail::gatherGroup<F>(batch_, r, at, n, scene_.hasMotion);
+            if (first) scatter(batch_.slots.covered, g.slot, UInt<F>(1u));
+            counts_.groups += 1;
+            counts_.liveLanes += std::uint64_t(n);
+            shader_.template shade<F, M>(step, g, detail::gatherHit<F>(batch_.hits, at), gather(batch_.key, at));
+        }
+    }
+
+    void missed(Step<F>& step, const RayBuffer& r, int begin) {
+        for (int i = begin; i < batch_.live; i += W) {
+            const int n = batch_.live - i < W ? batch_.live - i : W;
+            const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
+            shader_.template miss<F>(step, detail::gatherGroup<F>(batch_, r, at, n, false));
+        }
+    }
+
+    void traceNearest() {
+        RayBuffer& r = batch_.now();
+        HitBuffer& h = batch_.hits;
+        counts_.rays += std::uint64_t(batch_.live);
+        for (int i = 0; i < batch_.live; i += W) {
+            const int n = batch_.live - i < W ? batch_.live - i : W;
+            RayHitPacket p;
+            const UInt<F> slot = load<F>(r.slot + i);
+            fillPacket(p.ray, {load<F>(r.originX + i), load<F>(r.originY + i), load<F>(r.originZ + i)},
+                       {load<F>(r.directionX + i), load<F>(r.directionY + i), load<F>(r.directionZ + i)}, F(kInfinity), slot, n);
+            store(p.hit.geometry, UInt<F>(kNoHit));
+            store(p.hit.instance, UInt<F>(kNoHit));
+            const unsigned live = (1u << n) - 1u;
+            if (controls_.recorder) controls_.recorder->nearest(p, live);
+            scene_.accelerator.intersect(p, live);
+            const UInt<F> geometry = load<F>(p.hit.geometry), instance = load<F>(p.hit.instance);
+            store(h.geometry + i, geometry);
+            store(h.instance + i, instance);
+            store(h.primitive + i, load<F>(p.hit.primitive));
+            store(h.u + i, load<F>(p.hit.u));
+            store(h.v + i, load<F>(p.hit.v));
+            store(h.t + i, load<F>(p.ray.far));
+            // The material decides the order of shading.
+            const Mask<F> met = geometry != UInt<F>(kNoHit);
+            const Hit<F> hit{select(met, geometry, UInt<F>(0u)), UInt<F>(0u), select(met, instance, UInt<F>(kNone)), F(0.f), F(0.f), F(0.f)};
+            UInt<F> key = UInt<F>(missKey());
+            if (any(met)) {
+                const UInt<F> shape = detail::shapeOf(scene_.geometry, hit);
+                key = select(met, Records<F, ShapeRecord>(scene_.geometry.shapes.data(), shape)(&ShapeRecord::material), key);
+            }
+            store(batch_.key + i, key);
+        }
+    }
+
+    void traceShadows() {
+        ShadowBuffer& s = batch_.shadows;
+        counts_.shadowRays += std::uint64_t(batch_.shadowCount);
+        for (int i = 0; i < batch_.shadowCount; i += W) {
+            const int n = batch_.shadowCount - i < W ? batch_.shadowCount - i : W;
+            const UInt<F> slot = load<F>(s.slot + i);
+            RayPacket p;
+            fillPacket(p, {load<F>(s.originX + i), load<F>(s.originY + i), load<F>(s.originZ + i)},
+                       {load<F>(s.directionX + i), load<F>(s.directionY + i), load<F>(s.directionZ + i)}, load<F>(s.far + i), slot, n);
+            const unsigned live = (1u << n) - 1u;
+            if (controls_.recorder) controls_.recorder->shadow(p, live);
+            scene_.accelerator.occluded(p, live);
+            const unsigned open = bits(Mask<F>(load<F>(p.far) >= F(0.f))) & live;
+            for (unsigned left = open; left; left &= left - 1) {
+                const int k = i + std::countr_zero(left);
+                const std::uint32_t to = s.slot[k];
+                batch_.slots.r[to] += s.r[k];
+                batch_.slots.g[to] += s.g[k];
+                batch_.slots.b[to] += s.b[k];
+            }
+        }
+    }
+
+    void fillPacket(RayPacket& p, const Vec3<F>& o, const Vec3<F>& d, F far, const UInt<F>& slot, int n) {
+        store(p.originX, o.x);
+        store(p.originY, o.y);
+        store(p.originZ, o.z);
+        store(p.near, F(0.f));
+        store(p.directionX, d.x);
+        store(p.directionY, d.y);
+        store(p.directionZ, d.z);
+        F time(0.f);
+        if (scene_.hasMotion) time = gather(batch_.slots.time, select(firstLanes<F>(n), slot, UInt<F>(0u)));
+        store(p.time, time);
+        store(p.far, far);
+        store(p.mask, UInt<F>(0xFFFFFFFFu));
+        store(p.id, UInt<F>(0u));
+        store(p.flags, UInt<F>(0u));
+    }
+
+    std::uint32_t missKey() const { return scene_.materials.size(); }
+
+    /// Orders the rays by the material they met, misses last: a counting sort, stable, so the order is a function of the batch
+    /// alone. Where a scene has very many materials, by kind only.
+    void sortByMaterial() {
+        constexpr std::uint32_t kMostBuckets = 1024;
+        const std::uint32_t materials = missKey();
+        const bool fine = materials < kMostBuckets;
+        const std::uint32_t buckets = (fine ? materials : MaterialTable::kTags) + 1;
+        const auto bucket = [&](int i) {
+            const std::uint32_t key = batch_.key[i];
+            return fine ? key : key == materials ? buckets - 1 : scene_.materials.tag(key);
+        };
+        int place[kMostBuckets + 1] = {};
+        for (int i = 0; i < batch_.live; ++i) ++place[bucket(i)];
+        int sum = 0;
+        for (std::uint32_t b = 0; b < buckets; ++b) {
+            const int n = place[b];
+            place[b] = sum;
+            sum += n;
+        }
+        for (int i = 0; i < batch_.live; ++i) batch_.order[place[bucket(i)]++] = std::uint16_t(i);
+        // Each place is now the end of its bucket.
+        for (unsigned tag = 0; tag < MaterialTable::kTags; ++tag) {
+            const std::uint32_t last = fine ? scene_.materials.firstId(tag + 1) : tag + 1;
+            runEnd_[tag] = last ? place[last - 1] : 0;
+        }
+    }
+
+    /// Hands the finished paths to the film.
+    void end() {
+        const SlotBuffer& s = batch_.slots;
+        const FilmSettings& settings = scene_.film;
+        const bool plain = settings.isIdentity();
+        for (int i = 0; i < pathCount_; ++i) {
+            Spectrum<float> value{s.r[i], s.g[i], s.b[i]};
+            if (!plain) value = toSensor(settings, value);
+            if (s.sign[i] < 0.f) value = value * -1.f;
+            if (!film_.add(s.pixel[i], s.sample[i], value, s.sign[i], s.covered[i] != 0)) counts_.addInvalid({s.pixel[i], s.sample[i]});
+        }
+    }
+    static Spectrum<float> toSensor(const FilmSettings& f, const Spectrum<float>& c) {
+        const auto& m = f.sensorFromFilm;
+        Spectrum<float> s{m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
+        const float largest = maxComponent(s);
+        if (largest > f.maxComponent) s = s * (f.maxComponent / largest);
+        return s;
+    }
+
+    const Scene& scene_;
+    const Shader& shader_;
+    const RenderControls& controls_;
+    Film& film_;
+    RenderCounts& counts_;
+    PathBatch& batch_;
+    int pathCount_ = 0;
+    int runEnd_[MaterialTable::kTags];   ///< in `order`: end of the rays that met each kind of material
+};
+
+}  // namespace penumbra

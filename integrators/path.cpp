@@ -1,0 +1,28 @@
+#include "integrators/path.h"
+
+#include "integrators/registry.h"
+#include "integrators/shader_integrator.h"
+
+namespace penumbra {
+namespace {
+
+constexpr ParameterInfo kParameters[] = {
+    {"integer", "maxdepth", "5", "scattering events at most; emission met after the last one counts"},
+    {"string", "lightsampler", "power", "how the next light is picked: power or uniform"},
+};
+
+}  // namespace
+
+const PluginInfo PathIntegrator::kInfo{"path", "path tracing with next-event estimation and multiple importance sampling (default)",
+                                       kParameters};
+std::unique_ptr<Integrator> PathIntegrator::make(const IntegratorSettings& s) { return std::make_unique<ShaderIntegrator<PathShader>>(s); }
+
+const PluginInfo DirectIntegrator::kInfo{"direct", "emission and light that was scattered once: path with maxdepth 1",
+                                         std::span(kParameters).last(1)};
+std::unique_ptr<Integrator> DirectIntegrator::make(const IntegratorSettings& s) {
+    IntegratorSettings once = s;
+    once.maxDepth = s.maxDepth < 1 ? s.maxDepth : 1;
+    return PathIntegrator::make(once);
+}
+
+}  // namespace penumbra

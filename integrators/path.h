@@ -1,0 +1,183 @@
+// path: unidirectional path tracing with next-event estimation (Kajiya 1986; multiple importance sampling after Veach 1997).
+//
+// At every vertex one light is picked and sampled, and one direction of the BSDF; what both could have found is weighed by
+// the power heuristic with exponent two. `maxdepth` counts scattering events as pbrt does: emission met by the direction
+// sampled at the last one still counts, with its weight.
+#pragma once
+
+#include "integrators/batch_driver.h"
+
+namespace penumbra {
+
+class PathShader {
+public:
+    explicit PathShader(const IntegratorSettings& s)
+        : maxDepth_(s.maxDepth > 0 ? std::uint32_t(s.maxDepth) : 0u), strategy_(s.strategy), roulette_(s.roulette) {}
+
+    template <class F, class M>
+    void shade(Step<F>& step, RayGroup<F> g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
+        const Scene& scene = step.scene;
+        const SurfacePoint<F> at = surfacePoint(scene.geometry, hit, g.origin, g.direction, g.time);
+        const Records<F, ShapeRecord> shape(scene.geometry.shapes.data(), at.shape);
+        absorb(scene, g.medium, hit.t, g.throughput);
+        if constexpr (M::kPassThrough) {
+            passThrough(step, g, hit, at, shape);
+        } else {
+            emission(step, g, at, shape);
+            const Mask<F> goesOn = g.live & (g.depth < UInt<F>(maxDepth_));
+            if (any(goesOn)) scatterPath<F, M>(step, g, hit, at, shape, material, goesOn);
+        }
+    }
+
+    template <class F>
+    void miss(Step<F>& step, const RayGroup<F>& g) const noexcept {
+        const LightHit<F> away{g.origin, {}, g.direction};
+        for (std::uint32_t id : step.scene.lights.infiniteIds()) {
+            const LightEval<F> e = evaluateLight<F>(step.scene.lights, UInt<F>(id), away);
+            const F weight = emissionWeight(step.scene, g, UInt<F>(id), e.pdf);
+            step.add(g, g.throughput * e.L * weight);
+        }
+    }
+
+private:
+    /// Weight of emission met by a ray, against light sampling.
+    template <class F>
+    F emissionWeight(const Scene& scene, const RayGroup<F>& g, const UInt<F>& light, F lightPdf) const {
+        const Mask<F> whole = g.bsdfPdf == F(0.f);
+        if (strategy_ == Strategy::BsdfOnly) return F(1.f);
+        if (strategy_ == Strategy::LightOnly) return select(whole, F(1.f), F(0.f));
+        const F other = lightPdf * scene.lightSampler.probability<F>(light);
+        return select(whole, F(1.f), powerHeuristic(g.bsdfPdf, other));
+    }
+
+    /// a^2 / (a^2 + b^2), without overflow; a > 0.
+    template <class F>
+    static F powerHeuristic(F a, F b) {
+        const F ratio = b / a;
+        return F(1.f) / (F(1.f) + ratio * ratio);
+    }
+
+    template <class F>
+    static void absorb(const Scene& scene, const UInt<F>& medium, F distance, Spectrum<F>& throughput) {
+        if (scene.media.size() <= 1 || none(medium != UInt<F>(0u))) return;
+        const Spectrum<F> sigma = Records<F, MediumRecord>(scene.media.data(), medium)(&MediumRecord::absorption);
+        // Vacuum has sigma 0, and 0 times an infinite distance is not a number.
+        const F d = min(distance, F(1e30f));
+        throughput *= Spectrum<F>{exp(-sigma.r * d), exp(-sigma.g * d), exp(-sigma.b * d)};
+    }
+
+    /// The medium on the side to which w points.
+    template <class F>
+    static UInt<F> mediumBehind(const SurfacePoint<F>& at, const Records<F, ShapeRecord>& shape, const Vec3<F>& w, const UInt<F>& medium) {
+        const Mask<F> border = (shape(&ShapeRecord::flags) & UInt<F>(kShapeMediumBoundary)) != UInt<F>(0u);
+        if (none(border)) return medium;
+        const UInt<F> side = select(dot(w, at.ng) < F(0.f), shape(&ShapeRecord::mediumInside), shape(&ShapeRecord::mediumOutside));
+        return select(border, side, medium);
+    }
+
+    template <class F>
+    void passThrough(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const SurfacePoint<F>& at,
+                     const Records<F, ShapeRecord>& shape) const {
+        // Shadow rays stop here, so what lies behind is found by the path alone and counts whole.
+        const Mask<F> tired = Mask<F>(step.vertex > maxDepth_ + kMostPassThroughs);
+        step.go(g,
+                {offsetOrigin(at.p, at.error, at.ng, g.direction), g.direction, g.throughput, F(0.f), g.etaScale,
+                 g.coneWidth + coneSpread<F>(step.scene) * hit.t, g.slot, g.depth, mediumBehind(at, shape, g.direction, g.medium)},
+                !tired);
+    }
+    static constexpr std::uint32_t kMostPassThroughs = 10000;
+
+    template <class F>
+    static F coneSpread(const Scene& scene) { return F(scene.camera.coneSpread()); }
+
+    template <class F>
+    void emission(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at, const Records<F, ShapeRecord>& shape) const {
+        const UInt<F> first = shape(&ShapeRecord::light);
+        const Mask<F> emits = first != UInt<F>(kNone);
+        if (none(emits)) return;
+        const UInt<F> id = select(emits, first + at.primitive * shape(&ShapeRecord::lightStride), UInt<F>(0u));
+        const LightEval<F> e = evaluateLight<F>(step.scene.lights, id, {g.origin, at.p, g.direction});
+        const F weight = emissionWeight(step.scene, g, id, e.pdf);
+        const Spectrum<F> value = g.throughput * e.L * weight;
+        step.add(g, select(emits, value, Spectrum<F>::constant(F(0.f))));
+    }
+
+    template <class F, class M>
+    void scatterPath(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const SurfacePoint<F>& at,
+                     const Records<F, ShapeRecord>& shape, const UInt<F>& material, const Mask<F>& goesOn) const {
+        const Scene& scene = step.scene;
+        const F coneWidth = g.coneWidth + coneSpread<F>(scene) * hit.t;
+        const ShadingContext<F> context{scene.textures, scene.materials.tableData(), {at.uv, coneWidth * at.uvPerLength, at.p}};
+        const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), context);
+        const Vec3<F> wo = at.frame.toLocal(-g.direction);
+
+        if (!scene.lightSampler.empty()) {
+            const Mask<F> lit = goesOn & !bsdf.smoothOnly();
+            if (any(lit)) sampleLights(step, g, at, bsdf, wo, lit);
+        }
+
+        const F uLobe = scene.sampler.get1<F>(g.address, step.vertex, Dim::Lobe);
+        const BsdfSample<F> s = bsdf.sample(wo, uLobe, scene.sampler.get2<F>(g.address, step.vertex, Dim::Direction));
+        NextRay<F> next;
+        next.direction = at.frame.toWorld(s.wi);
+        next.throughput = g.throughput * s.weight;
+        next.bsdfPdf = select(s.delta, F(0.f), s.pdf);
+        next.etaScale = g.etaScale * s.eta * s.eta;
+        next.coneWidth = coneWidth;
+        next.slot = g.slot;
+        next.depth = g.depth + UInt<F>(1u);
+        next.origin = offsetOrigin(at.p, at.error, at.ng, next.direction);
+        const Mask<F> crosses = dot(next.direction, at.ng) * dot(g.direction, at.ng) > F(0.f);
+        next.medium = select(crosses, mediumBehind(at, shape, next.direction, g.medium), g.medium);
+        Mask<F> survives = goesOn & s.valid & !isBlack(next.throughput);
+        if (roulette_ != RouletteRule::Off) survives = survives & playRoulette(step, g, next);
+        step.go(g, next, survives);
+    }
+
+    template <class F, class Bsdf>
+    void sampleLights(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at, const Bsdf& bsdf, const Vec3<F>& wo,
+                      const Mask<F>& lit) const {
+        const Scene& scene = step.scene;
+        UInt<F> id;
+        F pick;
+        scene.lightSampler.pick(scene.sampler.template get1<F>(g.address, step.vertex, Dim::LightPick), id, pick);
+        const LightSample<F> light =
+            sampleLight<F>(scene.lights, id, at.p, scene.sampler.get2<F>(g.address, step.vertex, Dim::LightPosition));
+        Mask<F> wanted = lit & light.valid;
+        if (strategy_ == Strategy::BsdfOnly) wanted = wanted & light.delta;
+        if (none(wanted)) return;
+        const BsdfEval<F> f = bsdf.evaluate(wo, at.frame.toLocal(light.wi));
+        const F pdf = light.pdf * pick;
+        F weight = F(1.f) / pdf;
+        if (strategy_ == Strategy::Mis) weight = select(light.delta, weight, weight * powerHeuristic(pdf, f.pdf));
+        Spectrum<F> value = g.throughput * f.fCos * light.L * weight;
+        const Mask<F> infinite = light.distance == F(kInfinity);
+        absorb(scene, g.medium, select(infinite, F(0.f), light.distance), value);
+        wanted = wanted & !isBlack(value);
+        // The light's own surface must not shadow its points: stop short by what rounding may have moved them.
+        const F slack = light.distance * F(0x1p-16f) + maxComponent(abs(at.p)) * F(0x1p-20f);
+        const F far = select(infinite, light.distance, light.distance - slack);
+        wanted = wanted & (far > F(0.f));
+        step.shadow(g, offsetOrigin(at.p, at.error, at.ng, light.wi), light.wi, far, value, wanted);
+    }
+
+    /// Kills lanes at random in proportion to what their paths still carry; true where the path survives.
+    template <class F>
+    Mask<F> playRoulette(Step<F>& step, const RayGroup<F>& g, NextRay<F>& next) const {
+        const std::uint32_t firstDepth = roulette_ == RouletteRule::Late ? 5u : 2u;   // in scattering events, this one included
+        const Mask<F> plays = !(next.depth < UInt<F>(firstDepth));
+        if (none(plays)) return Mask<F>(true);
+        const F carried = maxComponent(next.throughput) * next.etaScale;
+        const F survival = min(max(carried, F(0.f)), roulette_ == RouletteRule::Late ? F(0.95f) : F(1.f));
+        const F u = step.scene.sampler.template get1<F>(g.address, step.vertex, Dim::Roulette);
+        const Mask<F> lives = (u < survival) | !plays;
+        next.throughput = select(plays & lives, next.throughput * (F(1.f) / survival), next.throughput);
+        return lives;
+    }
+
+    std::uint32_t maxDepth_;
+    Strategy strategy_;
+    RouletteRule roulette_;
+};
+
+}  // namespace penumbra
