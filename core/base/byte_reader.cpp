@@ -1,13 +1,13 @@
 #include "core/base/byte_reader.h"
 
+#include <sys/stat.h>
+#include <zlib.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <new>
 #include <optional>
-#include <sys/stat.h>
-#include <zlib.h>
 
 namespace penumbra {
 
@@ -24,7 +24,7 @@ struct CloseFile {
 class RawBytes {
 public:
     RawBytes(std::FILE* file, std::uint64_t size) : file_(file), left_(size) {
-        std::setvbuf(file, nullptr, _IONBF, 0);   // ByteReader has the block
+        std::setvbuf(file, nullptr, _IONBF, 0);  // ByteReader has the block
     }
     explicit RawBytes(std::string_view memory) : memory_(memory.data()), left_(memory.size()) {}
 
@@ -40,7 +40,7 @@ public:
             std::memcpy(out, memory_, n);
             memory_ += n;
         }
-        left_ = n == 0 ? 0 : left_ - n;   // 0: the file has been cut while it was read
+        left_ = n == 0 ? 0 : left_ - n;  // 0: the file has been cut while it was read
         return n;
     }
     std::uint64_t left() const { return left_; }
@@ -79,7 +79,8 @@ public:
     std::size_t read(RawBytes& raw, char* out, std::size_t n, const std::string& name) {
         stream_.next_out = reinterpret_cast<Bytef*>(out);
         stream_.avail_out = static_cast<uInt>(n);
-        while (stream_.avail_out == n && (stream_.avail_in > 0 || refillInput(raw, name))) inflateSome(name);
+        while (stream_.avail_out == n && (stream_.avail_in > 0 || refillInput(raw, name)))
+            inflateSome(name);
         const std::size_t produced = n - stream_.avail_out;
         if (produced > left_)
             throw Error(ErrorKind::BadData, name + ": inflates to more than 64 MiB plus 100 times its compressed size");
@@ -100,7 +101,7 @@ private:
         return stream_.avail_in > 0;
     }
     void inflateSome(const std::string& name) {
-        if (atMemberEnd_) inflateReset(&stream_);   // another member follows
+        if (atMemberEnd_) inflateReset(&stream_);  // another member follows
         const int result = inflate(&stream_, Z_NO_FLUSH);
         atMemberEnd_ = result == Z_STREAM_END;
         if (result == Z_MEM_ERROR) throw std::bad_alloc();
@@ -128,7 +129,7 @@ struct ByteReader::Source {
     std::uint64_t left() const { return inflater ? inflater->left() : raw.left(); }
 
     RawBytes raw;
-    std::optional<Inflater> inflater;   // empty: plain bytes
+    std::optional<Inflater> inflater;  // empty: plain bytes
 };
 
 ByteReader::ByteReader(std::unique_ptr<Source> source, std::string name)

@@ -1,13 +1,13 @@
-// ByteReader: the bytes of a file or of a piece of memory, in order, inflated where they are gzip (known by its first two
-// bytes, not by the name). Nothing but one block is held, so a file of any size costs 128 KB.
+// ByteReader: the bytes of a file or of a piece of memory, in order, inflated where they are gzip (known by its first
+// two bytes, not by the name). Nothing but one block is held, so a file of any size costs 128 KB.
 //
 // The block is a window onto the stream: fill(n) makes at least n bytes visible from data() on, consume(n) moves on.
 // This is the only file pair that uses zlib.
 //
 // Invariants: available() bytes may be read from data() on, until the next fill(), skip() or move.
-// Hostile input: an inflated stream may be at most 64 MiB plus 100 times its compressed size long (real meshes and scenes
-// stay below 50 times, deflate itself allows 1032 times); what is damaged, cut short or beyond that throws Error(BadData).
-// Thread safety: none; one instance belongs to one thread.
+// Hostile input: an inflated stream may be at most 64 MiB plus 100 times its compressed size long (real meshes and
+// scenes stay below 50 times, deflate itself allows 1032 times); what is damaged, cut short or beyond that throws
+// Error(BadData). Thread safety: none; one instance belongs to one thread.
 #pragma once
 
 #include "core/base/error.h"

@@ -18,12 +18,13 @@ double doubleAreaSquared(const TriangleMesh& mesh, const std::uint32_t* corner) 
 bool isUsableVertex(const TriangleMesh& mesh, std::uint32_t vertex) {
     const float* p = &mesh.positions[3 * std::size_t{vertex}];
     // Comparisons are false for NaN.
-    return std::abs(p[0]) < kLargestCoordinate && std::abs(p[1]) < kLargestCoordinate && std::abs(p[2]) < kLargestCoordinate;
+    return std::abs(p[0]) < kLargestCoordinate && std::abs(p[1]) < kLargestCoordinate &&
+           std::abs(p[2]) < kLargestCoordinate;
 }
 
 bool isUsableTriangle(const TriangleMesh& mesh, const std::uint32_t* corner) {
-    return corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0] && isUsableVertex(mesh, corner[0]) &&
-           isUsableVertex(mesh, corner[1]) && isUsableVertex(mesh, corner[2]) &&
+    return corner[0] != corner[1] && corner[1] != corner[2] && corner[2] != corner[0] &&
+           isUsableVertex(mesh, corner[0]) && isUsableVertex(mesh, corner[1]) && isUsableVertex(mesh, corner[2]) &&
            doubleAreaSquared(mesh, corner) >= std::numeric_limits<float>::min();
 }
 
@@ -37,16 +38,16 @@ void dropUnlessLength(std::vector<T>& values, std::size_t expected, const char* 
 }
 
 /// The checked indices as unsigned numbers; the signed ones are freed.
-std::vector<std::uint32_t> takeIndices(std::vector<std::int32_t> indices, std::size_t vertexCount, const std::string& where,
-                                       Warnings& warnings) {
+std::vector<std::uint32_t> takeIndices(std::vector<std::int32_t> indices, std::size_t vertexCount,
+                                       const std::string& where, Warnings& warnings) {
     if (indices.empty()) {
         if (vertexCount == 3) return {0, 1, 2};
         throw Error(ErrorKind::BadData, where + ": \"indices\" are missing; they may be only with 3 points, not with " +
                                             std::to_string(vertexCount));
     }
     if (const std::size_t surplus = indices.size() % 3) {
-        warnings.add(where + ": \"indices\" has " + std::to_string(indices.size()) + " numbers, not a multiple of 3; the last " +
-                     std::to_string(surplus) + " ignored");
+        warnings.add(where + ": \"indices\" has " + std::to_string(indices.size()) +
+                     " numbers, not a multiple of 3; the last " + std::to_string(surplus) + " ignored");
         indices.resize(indices.size() - surplus);
     }
     const auto outside = std::find_if(indices.begin(), indices.end(), [&](std::int32_t index) {
@@ -54,7 +55,8 @@ std::vector<std::uint32_t> takeIndices(std::vector<std::int32_t> indices, std::s
     });
     if (outside != indices.end())
         throw Error(ErrorKind::BadData, where + ": \"indices\"[" + std::to_string(outside - indices.begin()) + "] is " +
-                                            std::to_string(*outside) + ", outside 0 to " + std::to_string(vertexCount - 1));
+                                            std::to_string(*outside) + ", outside 0 to " +
+                                            std::to_string(vertexCount - 1));
     return {indices.begin(), indices.end()};
 }
 
@@ -67,12 +69,14 @@ void transformEach(std::vector<float>& triples, const Matrix4& matrix, Vec3d (*a
     }
 }
 
-/// The inverse transpose up to a positive factor, as the cofactors (which singular matrices have too), of norm at most 1.
+/// The inverse transpose up to a positive factor, as the cofactors (which singular matrices have too), of norm at
+/// most 1.
 Matrix4 normalMatrix(const Matrix4& a) {
     double largest = 0;
     for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a.m[r][c]));
-    if (!(largest > 0) || !std::isfinite(largest)) return {};   // no triangle is left of the mesh
+        for (int c = 0; c < 3; ++c)
+            largest = std::max(largest, std::abs(a.m[r][c]));
+    if (!(largest > 0) || !std::isfinite(largest)) return {};  // no triangle is left of the mesh
     const auto m = [&](int r, int c) { return a.m[r % 3][c % 3] / largest; };
     Matrix4 cofactors;
     double normSquared = 0, determinant = 0;
@@ -86,7 +90,8 @@ Matrix4 normalMatrix(const Matrix4& a) {
     if (normSquared == 0) return {};
     const double factor = (determinant < 0 ? -1 : 1) / std::sqrt(normSquared);
     for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) cofactors.m[r][c] *= factor;
+        for (int c = 0; c < 3; ++c)
+            cofactors.m[r][c] *= factor;
     return cofactors;
 }
 
@@ -161,7 +166,8 @@ MeshBounds bounds(const TriangleMesh& mesh) {
 
 double totalArea(const TriangleMesh& mesh) {
     double sum = 0;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) sum += 0.5 * std::sqrt(doubleAreaSquared(mesh, &mesh.indices[3 * t]));
+    for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
+        sum += 0.5 * std::sqrt(doubleAreaSquared(mesh, &mesh.indices[3 * t]));
     return sum;
 }
 

@@ -24,8 +24,8 @@ struct BadEntry {
     throw BadEntry{"the file ends within it"};
 }
 
-// The two decoders have one interface: scalar() gives the next value as a double, which holds every PLY type exactly, and
-// skip() passes over `count` values.
+// The two decoders have one interface: scalar() gives the next value as a double, which holds every PLY type exactly,
+// and skip() passes over `count` values.
 
 template <bool kBigEndian>
 class BinaryDecoder {
@@ -34,14 +34,22 @@ public:
 
     double scalar(PlyType type) {
         switch (type) {
-            case PlyType::Int8: return load<std::int8_t, std::uint8_t>();
-            case PlyType::Uint8: return load<std::uint8_t, std::uint8_t>();
-            case PlyType::Int16: return load<std::int16_t, std::uint16_t>();
-            case PlyType::Uint16: return load<std::uint16_t, std::uint16_t>();
-            case PlyType::Int32: return load<std::int32_t, std::uint32_t>();
-            case PlyType::Uint32: return load<std::uint32_t, std::uint32_t>();
-            case PlyType::Float32: return load<float, std::uint32_t>();
-            default: return load<double, std::uint64_t>();
+            case PlyType::Int8:
+                return load<std::int8_t, std::uint8_t>();
+            case PlyType::Uint8:
+                return load<std::uint8_t, std::uint8_t>();
+            case PlyType::Int16:
+                return load<std::int16_t, std::uint16_t>();
+            case PlyType::Uint16:
+                return load<std::uint16_t, std::uint16_t>();
+            case PlyType::Int32:
+                return load<std::int32_t, std::uint32_t>();
+            case PlyType::Uint32:
+                return load<std::uint32_t, std::uint32_t>();
+            case PlyType::Float32:
+                return load<float, std::uint32_t>();
+            default:
+                return load<double, std::uint64_t>();
         }
     }
     void skip(PlyType type, std::uint64_t count) {
@@ -77,12 +85,14 @@ public:
         const char* const begin = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
         double value = 0;
         const auto [rest, status] = std::from_chars(begin, end, value);
-        if (rest != end || status == std::errc::invalid_argument) throw BadEntry{"expected a number, found " + quote(word)};
+        if (rest != end || status == std::errc::invalid_argument)
+            throw BadEntry{"expected a number, found " + quote(word)};
         if (status == std::errc::result_out_of_range) value = outOfRangeValue(word);
         return value;
     }
     void skip(PlyType, std::uint64_t count) {
-        for (; count > 0; --count) nextWord();
+        for (; count > 0; --count)
+            nextWord();
     }
     bool hasMore() { return skipBlanks(); }
 
@@ -102,7 +112,8 @@ private:
     bool skipBlanks() {
         while (bytes_.fill(1)) {
             std::size_t n = 0;
-            while (n < bytes_.available() && isBlank(bytes_.data()[n])) ++n;
+            while (n < bytes_.available() && isBlank(bytes_.data()[n]))
+                ++n;
             const bool found = n < bytes_.available();
             bytes_.consume(n);
             if (found) return true;
@@ -116,7 +127,8 @@ private:
         bytes_.fill(kLongestWord + 1);
         const std::size_t most = std::min(bytes_.available(), kLongestWord + 1);
         std::size_t n = 1;
-        while (n < most && !isBlank(bytes_.data()[n])) ++n;
+        while (n < most && !isBlank(bytes_.data()[n]))
+            ++n;
         if (n > kLongestWord) throw BadEntry{"expected a number, found more than 256 letters without a blank"};
         bytes_.consume(n);
         return {bytes_.data() - n, n};
@@ -154,7 +166,8 @@ public:
 private:
     std::ptrdiff_t indexOf(std::string_view name) const {
         const auto& list = vertex_.properties;
-        const auto found = std::find_if(list.begin(), list.end(), [&](const auto& p) { return p.name == name && !p.isList; });
+        const auto found =
+            std::find_if(list.begin(), list.end(), [&](const auto& p) { return p.name == name && !p.isList; });
         return found == list.end() ? -1 : found - list.begin();
     }
     bool has(std::string_view name) const { return indexOf(name) >= 0; }
@@ -162,7 +175,8 @@ private:
     /// All of the names, or none.
     bool assign(std::initializer_list<std::string_view> names, int firstSlot) {
         if (!std::all_of(names.begin(), names.end(), [&](std::string_view name) { return has(name); })) return false;
-        for (const std::string_view name : names) layout_.slotOfProperty[indexOf(name)] = firstSlot++;
+        for (const std::string_view name : names)
+            layout_.slotOfProperty[indexOf(name)] = firstSlot++;
         return true;
     }
 
@@ -179,9 +193,15 @@ public:
     TriangleMesh read() {
         checkElements();
         switch (header_.format) {
-            case PlyFormat::Ascii: readAll(AsciiDecoder(bytes_)); break;
-            case PlyFormat::BinaryLittleEndian: readAll(BinaryDecoder<false>(bytes_)); break;
-            case PlyFormat::BinaryBigEndian: readAll(BinaryDecoder<true>(bytes_)); break;
+            case PlyFormat::Ascii:
+                readAll(AsciiDecoder(bytes_));
+                break;
+            case PlyFormat::BinaryLittleEndian:
+                readAll(BinaryDecoder<false>(bytes_));
+                break;
+            case PlyFormat::BinaryBigEndian:
+                readAll(BinaryDecoder<true>(bytes_));
+                break;
         }
         chooseDiagonals();
         if (skippedPolygons_ > 0)
@@ -208,9 +228,12 @@ private:
         for (const PlyElement& element : header_.elements) {
             entry_ = 0;
             try {
-                if (&element == vertex_) readVertices(decoder);
-                else if (&element == face_) readFaces(decoder);
-                else skipElement(decoder, element);
+                if (&element == vertex_)
+                    readVertices(decoder);
+                else if (&element == face_)
+                    readFaces(decoder);
+                else
+                    skipElement(decoder, element);
             } catch (const BadEntry& bad) {
                 throw Error(ErrorKind::BadData, file_ + ": " + element.name + " " + std::to_string(entry_) + " of " +
                                                     std::to_string(element.count) + ": " + bad.message);
@@ -221,9 +244,10 @@ private:
 
     template <class Decoder>
     void skipElement(Decoder& decoder, const PlyElement& element) {
-        if (element.properties.empty()) return;   // its count is bounded by nothing
+        if (element.properties.empty()) return;  // its count is bounded by nothing
         for (; entry_ < element.count; ++entry_)
-            for (const PlyProperty& property : element.properties) skipProperty(decoder, property);
+            for (const PlyProperty& property : element.properties)
+                skipProperty(decoder, property);
     }
 
     template <class Decoder>
@@ -250,8 +274,10 @@ private:
             for (std::size_t i = 0; i < layout.slotOfProperty.size(); ++i) {
                 const PlyProperty& property = vertex_->properties[i];
                 const int slot = layout.slotOfProperty[i];
-                if (slot == kSkipped) skipProperty(decoder, property);
-                else row[slot] = static_cast<float>(decoder.scalar(property.type));
+                if (slot == kSkipped)
+                    skipProperty(decoder, property);
+                else
+                    row[slot] = static_cast<float>(decoder.scalar(property.type));
             }
             mesh_.positions.insert(mesh_.positions.end(), row + kPositionSlot, row + kNormalSlot);
             if (layout.hasNormals) mesh_.normals.insert(mesh_.normals.end(), row + kNormalSlot, row + kUvSlot);
@@ -271,9 +297,12 @@ private:
             const std::size_t before = mesh_.triangleCount();
             std::int32_t faceNumber = 0;
             for (const PlyProperty& property : face_->properties) {
-                if (&property == corners) readCorners(decoder, property);
-                else if (&property == number) faceNumber = toFaceNumber(decoder.scalar(property.type));
-                else skipProperty(decoder, property);
+                if (&property == corners)
+                    readCorners(decoder, property);
+                else if (&property == number)
+                    faceNumber = toFaceNumber(decoder.scalar(property.type));
+                else
+                    skipProperty(decoder, property);
             }
             if (number) mesh_.faceIndices.insert(mesh_.faceIndices.end(), mesh_.triangleCount() - before, faceNumber);
         }
@@ -299,7 +328,8 @@ private:
             return decoder.skip(property.type, count);
         }
         std::uint32_t corner[4];
-        for (std::uint64_t i = 0; i < count; ++i) corner[i] = toVertexIndex(decoder.scalar(property.type));
+        for (std::uint64_t i = 0; i < count; ++i)
+            corner[i] = toVertexIndex(decoder.scalar(property.type));
         if (count == 4) {
             // Where one is a quad, most are.
             if (quads_.empty()) mesh_.indices.reserve(mesh_.indices.size() + 6 * mostFacesLeft(property, 4));
@@ -311,7 +341,8 @@ private:
 
     std::uint32_t toVertexIndex(double value) const {
         if (!(value >= 0 && value < static_cast<double>(vertex_->count)) || value != std::floor(value))
-            throw BadEntry{"there is no vertex " + shown(value) + ", only 0 to " + std::to_string(vertex_->count) + " - 1"};
+            throw BadEntry{"there is no vertex " + shown(value) + ", only 0 to " + std::to_string(vertex_->count) +
+                           " - 1"};
         return static_cast<std::uint32_t>(value);
     }
 
@@ -348,7 +379,7 @@ private:
     const PlyElement* vertex_ = nullptr;
     const PlyElement* face_ = nullptr;
     TriangleMesh mesh_;
-    std::vector<std::uint32_t> quads_;   ///< the first triangle of each
+    std::vector<std::uint32_t> quads_;  ///< the first triangle of each
     std::uint64_t entry_ = 0, skippedPolygons_ = 0;
 };
 

@@ -1,13 +1,13 @@
 // Reading PLY meshes: ascii, binary little-endian and big-endian, plain or gzip.
 //
 // Taken: of element `vertex` x y z, nx ny nz, and the first complete pair of u v, s t, texture_u texture_v, texture_s
-// texture_t; of element `face` the list `vertex_indices` (or `vertex_index`) and `face_indices`. Properties may have any
-// scalar type and order, lists any integer type of length; all other elements and properties are skipped.
+// texture_t; of element `face` the list `vertex_indices` (or `vertex_index`) and `face_indices`. Properties may have
+// any scalar type and order, lists any integer type of length; all other elements and properties are skipped.
 //
-// Polygons: triangles are taken as they are; a quad a b c d becomes the triangles a b c and a c d (a b d and b c d where
-// it is concave at b or d), which is the same surface where it is planar. pbrt takes a quad for a bilinear patch: one that
-// is not planar therefore differs a little here (its fold is sharp), and so do uvs inside a quad that is no parallelogram,
-// and the uvs pbrt invents for a quad without any. Other polygons are skipped; one warning counts them.
+// Polygons: triangles are taken as they are; a quad a b c d becomes the triangles a b c and a c d (a b d and b c d
+// where it is concave at b or d), which is the same surface where it is planar. pbrt takes a quad for a bilinear patch:
+// one that is not planar therefore differs a little here (its fold is sharp), and so do uvs inside a quad that is no
+// parallelogram, and the uvs pbrt invents for a quad without any. Other polygons are skipped; one warning counts them.
 //
 // Hostile input: Error(BadData), "file:line: ..." in the header and "file: element entry: ..." behind it. Counts are
 // checked against the size of the file before memory is taken for them, indices against the number of vertices. Numbers

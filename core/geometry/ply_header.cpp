@@ -16,11 +16,11 @@ struct TypeName {
     PlyType type;
 };
 constexpr std::array kTypeNames{
-    TypeName{"char", PlyType::Int8},     TypeName{"uchar", PlyType::Uint8},     TypeName{"short", PlyType::Int16},
-    TypeName{"ushort", PlyType::Uint16}, TypeName{"int", PlyType::Int32},       TypeName{"uint", PlyType::Uint32},
-    TypeName{"float", PlyType::Float32}, TypeName{"double", PlyType::Float64},  TypeName{"int8", PlyType::Int8},
-    TypeName{"uint8", PlyType::Uint8},   TypeName{"int16", PlyType::Int16},     TypeName{"uint16", PlyType::Uint16},
-    TypeName{"int32", PlyType::Int32},   TypeName{"uint32", PlyType::Uint32},   TypeName{"float32", PlyType::Float32},
+    TypeName{"char", PlyType::Int8},      TypeName{"uchar", PlyType::Uint8},    TypeName{"short", PlyType::Int16},
+    TypeName{"ushort", PlyType::Uint16},  TypeName{"int", PlyType::Int32},      TypeName{"uint", PlyType::Uint32},
+    TypeName{"float", PlyType::Float32},  TypeName{"double", PlyType::Float64}, TypeName{"int8", PlyType::Int8},
+    TypeName{"uint8", PlyType::Uint8},    TypeName{"int16", PlyType::Int16},    TypeName{"uint16", PlyType::Uint16},
+    TypeName{"int32", PlyType::Int32},    TypeName{"uint32", PlyType::Uint32},  TypeName{"float32", PlyType::Float32},
     TypeName{"float64", PlyType::Float64}};
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -44,10 +44,15 @@ public:
             const std::vector<std::string_view> words = split(nextLine());
             if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
             if (words[0] == "end_header") break;
-            if (words[0] == "format") parseFormat(words);
-            else if (words[0] == "element") parseElement(words);
-            else if (words[0] == "property") parseProperty(words);
-            else fail("unknown word " + quote(words[0]) + "; expected format, element, property, comment, obj_info or end_header");
+            if (words[0] == "format")
+                parseFormat(words);
+            else if (words[0] == "element")
+                parseElement(words);
+            else if (words[0] == "property")
+                parseProperty(words);
+            else
+                fail("unknown word " + quote(words[0]) +
+                     "; expected format, element, property, comment, obj_info or end_header");
         }
         if (!hasFormat_) fail("the header has no 'format' line");
         checkSizes();
@@ -65,7 +70,7 @@ private:
         headerLength_ += lineLength_;
         ++line_;
         const std::size_t mostLeft = kLongestHeader - headerLength_;
-        bytes_.fill(mostLeft);   // in the end there may be fewer
+        bytes_.fill(mostLeft);  // in the end there may be fewer
         const std::size_t visible = std::min(mostLeft, bytes_.available());
         const void* newline = visible == 0 ? nullptr : std::memchr(bytes_.data(), '\n', visible);
         if (!newline) {
@@ -80,10 +85,14 @@ private:
     void parseFormat(const std::vector<std::string_view>& words) {
         if (hasFormat_) fail("a second 'format' line");
         if (words.size() != 3) fail("expected 'format', its name and its version");
-        if (words[1] == "ascii") header_.format = PlyFormat::Ascii;
-        else if (words[1] == "binary_little_endian") header_.format = PlyFormat::BinaryLittleEndian;
-        else if (words[1] == "binary_big_endian") header_.format = PlyFormat::BinaryBigEndian;
-        else fail("unknown format " + quote(words[1]) + "; known: ascii, binary_little_endian, binary_big_endian");
+        if (words[1] == "ascii")
+            header_.format = PlyFormat::Ascii;
+        else if (words[1] == "binary_little_endian")
+            header_.format = PlyFormat::BinaryLittleEndian;
+        else if (words[1] == "binary_big_endian")
+            header_.format = PlyFormat::BinaryBigEndian;
+        else
+            fail("unknown format " + quote(words[1]) + "; known: ascii, binary_little_endian, binary_big_endian");
         if (words[2] != "1.0") fail("unknown version " + quote(words[2]) + "; known: 1.0");
         hasFormat_ = true;
     }
@@ -95,7 +104,8 @@ private:
         element.name = words[1];
         const char* const end = words[2].data() + words[2].size();
         const auto [rest, status] = std::from_chars(words[2].data(), end, element.count);
-        if (rest != end || status != std::errc()) fail("bad count " + quote(words[2]) + " of element " + quote(words[1]));
+        if (rest != end || status != std::errc())
+            fail("bad count " + quote(words[2]) + " of element " + quote(words[1]));
         header_.elements.push_back(std::move(element));
     }
 
@@ -122,7 +132,8 @@ private:
         for (const auto& [name, type] : kTypeNames)
             if (word == name) return type;
         std::vector<std::string> known;
-        for (const auto& [name, type] : kTypeNames) known.push_back(name);
+        for (const auto& [name, type] : kTypeNames)
+            known.push_back(name);
         fail("unknown type " + quote(word) + suggestion(word, known));
     }
 
@@ -130,7 +141,8 @@ private:
     std::uint64_t leastBytes(const PlyElement& element) const {
         if (header_.format == PlyFormat::Ascii) return 2 * element.properties.size();
         std::uint64_t sum = 0;
-        for (const PlyProperty& p : element.properties) sum += sizeOf(p.isList ? p.countType : p.type);
+        for (const PlyProperty& p : element.properties)
+            sum += sizeOf(p.isList ? p.countType : p.type);
         return sum;
     }
 
@@ -140,10 +152,10 @@ private:
         std::uint64_t left = bytes_.mostBytesLeft() + (header_.format == PlyFormat::Ascii ? 1 : 0);
         for (const PlyElement& element : header_.elements) {
             const std::uint64_t least = leastBytes(element);
-            if (least == 0) continue;   // without properties there are no data
+            if (least == 0) continue;  // without properties there are no data
             if (element.count > left / least)
-                fail("element " + quote(element.name) + " has " + std::to_string(element.count) + " entries of at least " +
-                     std::to_string(least) + " bytes, which is more than the file holds");
+                fail("element " + quote(element.name) + " has " + std::to_string(element.count) +
+                     " entries of at least " + std::to_string(least) + " bytes, which is more than the file holds");
             left -= element.count * least;
         }
     }
@@ -162,7 +174,8 @@ std::size_t sizeOf(PlyType type) {
 }
 
 const PlyElement* PlyHeader::find(std::string_view name) const {
-    const auto found = std::find_if(elements.begin(), elements.end(), [&](const PlyElement& e) { return e.name == name; });
+    const auto found =
+        std::find_if(elements.begin(), elements.end(), [&](const PlyElement& e) { return e.name == name; });
     return found == elements.end() ? nullptr : &*found;
 }
 

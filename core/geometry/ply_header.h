@@ -19,9 +19,9 @@ std::size_t sizeOf(PlyType type);
 
 struct PlyProperty {
     std::string name;
-    PlyType type = PlyType::Float32;         ///< of the value, or of each value of a list
+    PlyType type = PlyType::Float32;  ///< of the value, or of each value of a list
     bool isList = false;
-    PlyType countType = PlyType::Uint8;      ///< of the length of a list; an integer type
+    PlyType countType = PlyType::Uint8;  ///< of the length of a list; an integer type
 };
 
 struct PlyElement {
@@ -32,13 +32,13 @@ struct PlyElement {
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::Ascii;
-    std::vector<PlyElement> elements;        ///< in the order of their data
+    std::vector<PlyElement> elements;  ///< in the order of their data
 
     const PlyElement* find(std::string_view name) const;
 };
 
-/// Reads up to and with the line end_header; lines end in LF or CR LF. A header of more than 64 KB, or one that claims more
-/// data than the reader has, is refused: after this, every count is bounded by the size of the file. Messages are
+/// Reads up to and with the line end_header; lines end in LF or CR LF. A header of more than 64 KB, or one that claims
+/// more data than the reader has, is refused: after this, every count is bounded by the size of the file. Messages are
 /// "file:line: ...".
 PlyHeader readPlyHeader(ByteReader& bytes);
 

@@ -43,21 +43,26 @@ SineCosine sineCosineDegrees(double degrees) {
     const double rest = std::remquo(degrees, 90.0, &quarter) * (std::numbers::pi / 180);
     const double s = std::sin(rest), c = std::cos(rest);
     switch (quarter & 3) {
-        case 0: return {s, c};
-        case 1: return {c, -s};
-        case 2: return {-s, -c};
-        default: return {-c, s};
+        case 0:
+            return {s, c};
+        case 1:
+            return {c, -s};
+        case 2:
+            return {-s, -c};
+        default:
+            return {-c, s};
     }
 }
 
-/// Gauss-Jordan elimination of one matrix beside the identity. `size` holds, for every entry, the largest term that went
-/// into it: an entry that is nothing but the rounding error of such terms is a zero. (A bound on the entries alone would
-/// refuse Scale 1 1 1e-20, which has an inverse, or accept rows 1 2 3 / 4 5 6 / 7 8 9, which have none.)
+/// Gauss-Jordan elimination of one matrix beside the identity. `size` holds, for every entry, the largest term that
+/// went into it: an entry that is nothing but the rounding error of such terms is a zero. (A bound on the entries alone
+/// would refuse Scale 1 1 1e-20, which has an inverse, or accept rows 1 2 3 / 4 5 6 / 7 8 9, which have none.)
 class Elimination {
 public:
     explicit Elimination(const Matrix4& a) : left_(a) {
         for (int r = 0; r < 4; ++r)
-            for (int c = 0; c < 4; ++c) size_.m[r][c] = std::abs(a.m[r][c]);
+            for (int c = 0; c < 4; ++c)
+                size_.m[r][c] = std::abs(a.m[r][c]);
     }
 
     /// False where no pivot is left.
@@ -88,7 +93,8 @@ public:
     /// Row r of the right side belongs to the column that r was the pivot row of.
     Matrix4 result() const {
         Matrix4 inverse;
-        for (int r = 0; r < 4; ++r) inverse.m[columnOfRow_[r]] = right_.m[r];
+        for (int r = 0; r < 4; ++r)
+            inverse.m[columnOfRow_[r]] = right_.m[r];
         return inverse;
     }
 
@@ -111,22 +117,25 @@ private:
 Matrix4 linearPart(const Matrix4& a) {
     Matrix4 linear;
     for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) linear.m[r][c] = a.m[r][c];
+        for (int c = 0; c < 3; ++c)
+            linear.m[r][c] = a.m[r][c];
     return linear;
 }
 
 double frobeniusNorm3(const Matrix4& a) {
     double sum = 0;
     for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) sum += a.m[r][c] * a.m[r][c];
+        for (int c = 0; c < 3; ++c)
+            sum += a.m[r][c] * a.m[r][c];
     return std::sqrt(sum);
 }
 
-/// The orthogonal factor of a linear map by Higham's scaled Newton iteration (Computing the polar decomposition, SIAM J.
-/// Sci. Stat. Comput. 7, 1986, section 3); its determinant has the sign of the map's. False where the map is singular.
+/// The orthogonal factor of a linear map by Higham's scaled Newton iteration (Computing the polar decomposition, SIAM
+/// J. Sci. Stat. Comput. 7, 1986, section 3); its determinant has the sign of the map's. False where the map is
+/// singular.
 bool orthogonalFactor(const Matrix4& linear, Matrix4& out) {
     Matrix4 q = linear;
-    constexpr int kMostSteps = 64;   // 10 suffice for a condition of 1e16; the bound is only against a stall
+    constexpr int kMostSteps = 64;  // 10 suffice for a condition of 1e16; the bound is only against a stall
     for (int step = 0; step < kMostSteps; ++step) {
         Matrix4 inverse;
         if (!invert(q, inverse)) return false;
@@ -161,7 +170,8 @@ std::array<double, 4> quaternionFromRotation(const Matrix4& rotation) {
         q[3] = m[k][j] - m[j][k];
     }
     const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (double& component : q) component /= q[3] < 0 ? -norm : norm;
+    for (double& component : q)
+        component /= q[3] < 0 ? -norm : norm;
     return q;
 }
 
@@ -181,7 +191,8 @@ Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
     for (int r = 0; r < 4; ++r)
         for (int c = 0; c < 4; ++c) {
             double sum = 0;
-            for (int k = 0; k < 4; ++k) sum += a.m[r][k] * b.m[k][c];
+            for (int k = 0; k < 4; ++k)
+                sum += a.m[r][k] * b.m[k][c];
             product.m[r][c] = sum;
         }
     return product;
@@ -190,7 +201,8 @@ Matrix4 operator*(const Matrix4& a, const Matrix4& b) {
 Matrix4 transpose(const Matrix4& a) {
     Matrix4 t;
     for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c) t.m[r][c] = a.m[c][r];
+        for (int c = 0; c < 4; ++c)
+            t.m[r][c] = a.m[c][r];
     return t;
 }
 
@@ -200,7 +212,7 @@ bool invert(const Matrix4& a, Matrix4& out) {
     for (int step = 0; step < 4; ++step)
         if (!elimination.eliminateNext()) return false;
     const Matrix4 inverse = elimination.result();
-    if (!isFinite(inverse)) return false;   // 1 / 1e-320
+    if (!isFinite(inverse)) return false;  // 1 / 1e-320
     out = inverse;
     return true;
 }
@@ -228,7 +240,7 @@ Matrix4 scaling(double x, double y, double z) {
 
 Matrix4 rotation(double degrees, double x, double y, double z) {
     Vec3d n;
-    if (!normalized({x, y, z}, n)) return {};   // no axis: no rotation
+    if (!normalized({x, y, z}, n)) return {};  // no axis: no rotation
     const auto [s, c] = sineCosineDegrees(degrees);
     const double t = 1 - c;
     Matrix4 r;
@@ -240,9 +252,10 @@ Matrix4 rotation(double degrees, double x, double y, double z) {
 
 bool lookAt(Vec3d eye, Vec3d look, Vec3d up, Matrix4& out) {
     Vec3d forward, upwards, right;
-    if (!normalized({look.x - eye.x, look.y - eye.y, look.z - eye.z}, forward) || !normalized(up, upwards)) return false;
+    if (!normalized({look.x - eye.x, look.y - eye.y, look.z - eye.z}, forward) || !normalized(up, upwards))
+        return false;
     const Vec3d side = cross(upwards, forward);
-    constexpr double kLeastSine = 1e-12;   // below it the side is rounding noise of two parallel vectors
+    constexpr double kLeastSine = 1e-12;  // below it the side is rounding noise of two parallel vectors
     if (!(std::hypot(side.x, side.y, side.z) > kLeastSine) || !normalized(side, right)) return false;
     const Vec3d top = cross(forward, right);
     // The inverse of a rigid motion with columns (right, top, forward, eye): its rows, and the eye turned back.
@@ -257,7 +270,8 @@ bool lookAt(Vec3d eye, Vec3d look, Vec3d up, Matrix4& out) {
 
 Vec3d transformPoint(const Matrix4& a, Vec3d p) {
     std::array<double, 4> h;
-    for (int r = 0; r < 4; ++r) h[r] = a.m[r][0] * p.x + a.m[r][1] * p.y + a.m[r][2] * p.z + a.m[r][3];
+    for (int r = 0; r < 4; ++r)
+        h[r] = a.m[r][0] * p.x + a.m[r][1] * p.y + a.m[r][2] * p.z + a.m[r][3];
     if (h[3] == 1) return {h[0], h[1], h[2]};
     return {h[0] / h[3], h[1] / h[3], h[2] / h[3]};
 }
@@ -273,19 +287,22 @@ Decomposition decompose(const Matrix4& a) {
     const Matrix4 linear = linearPart(a);
     d.stretch = linear;
     Matrix4 q;
-    if (!orthogonalFactor(linear, q)) return d;   // singular: all of it is stretch
-    // With a reflection q = -R, R a rotation; S = -P then carries the reflection. Unlike a mirrored axis of P, which has to
-    // be chosen, this follows the matrix continuously, so two mirrored key frames interpolate like their mirror images.
+    if (!orthogonalFactor(linear, q)) return d;  // singular: all of it is stretch
+    // With a reflection q = -R, R a rotation; S = -P then carries the reflection. Unlike a mirrored axis of P, which
+    // has to be chosen, this follows the matrix continuously, so two mirrored key frames interpolate like their mirror
+    // images.
     if (determinant3(q) < 0)
         for (int r = 0; r < 3; ++r)
-            for (int c = 0; c < 3; ++c) q.m[r][c] = -q.m[r][c];
+            for (int c = 0; c < 3; ++c)
+                q.m[r][c] = -q.m[r][c];
     d.rotation = quaternionFromRotation(q);
     d.stretch = transpose(rotationFromQuaternion(d.rotation)) * linear;
     return d;
 }
 
 Matrix4 compose(const Decomposition& d) {
-    return translation(d.translation.x, d.translation.y, d.translation.z) * rotationFromQuaternion(d.rotation) * d.stretch;
+    return translation(d.translation.x, d.translation.y, d.translation.z) * rotationFromQuaternion(d.rotation) *
+           d.stretch;
 }
 
 }  // namespace penumbra
