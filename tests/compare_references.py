@@ -20,7 +20,8 @@ What is asked:
             transport: a fraction of the block's strongest channel, as far as its colours are saturated
   tungsten  channel means within 0.5 % of an RGB renderer's picture
 
-Writes to OUT: NAME.png (ours | reference | difference: red where ours is brighter, blue where darker, full at 10 %),
+Writes to OUT: NAME.png (ours | reference | difference over
+tiles of 4 pixels: red where ours is brighter, blue where darker, full at 10 %),
 the renders, and report.json. Exit status 0 if everything holds, 1 if not, 2 if a render or a file failed.
 """
 import argparse
@@ -122,12 +123,20 @@ def side_by_side(ours, reference):
         x = np.clip(x / white, 0, 1)
         return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055)
 
-    y, r = ours @ LUMINANCE, reference @ LUMINANCE
-    difference = np.clip((y - r) / (0.1 * (np.abs(r) + 0.01 * r.mean() + 1e-12)), -1, 1)
+    y, r = (tiled(x @ LUMINANCE, 4) for x in (ours, reference))
+    difference = np.clip((y - r) / (0.1 * (np.abs(r) + 0.01 * np.abs(r).mean() + 1e-12)), -1, 1)
     red, blue = np.maximum(difference, 0), np.maximum(-difference, 0)
     heat = np.stack([1 - blue, 1 - red - blue, 1 - red], -1)
     gap = np.ones((ours.shape[0], 4, 3))
     return np.concatenate([display(ours), gap, display(reference), gap, heat], 1)
+
+
+def tiled(image, side):
+    """Every pixel becomes the mean of its tile, so that differences show through the noise."""
+    height, width = image.shape
+    padded = np.pad(image, ((0, -height % side), (0, -width % side)), mode="edge")
+    means = block_means(padded[..., None], side)[..., 0]
+    return means.repeat(side, 0).repeat(side, 1)[:height, :width]
 
 
 def shrunk(image, height, width):
