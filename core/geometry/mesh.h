@@ -2,11 +2,16 @@
 //
 // Conventions: flat arrays, so that they go to Embree as they are. Triangle t has the corners indices[3t .. 3t+2];
 // vertex v the position positions[3v .. 3v+2]. Which side is the front is the builder's business: nothing here turns
-// triangles round. Memory: meshes are big and the process has to stay small, so everything moves or works in place; no
-// function holds a second copy of an array. Invariants (whoever fills a mesh sees to them): indices.size() is a
-// multiple of 3 and every index is below vertexCount(); normals, uvs, tangents are empty or complete; faceIndices is
-// empty or has one entry a triangle; positions has spare capacity (reserveVertices). Thread safety: a mesh is plain
-// data.
+// triangles round.
+//
+// Memory: meshes are big and the process has to stay small, so everything moves or works in place; no function holds a
+// second copy of an array (but the signed indices of a scene file, while they become unsigned).
+//
+// Invariants (whoever fills a mesh sees to them): indices.size() is a multiple of 3 and every index is below
+// vertexCount(); normals, uvs, tangents are empty or complete; faceIndices is empty or has one entry a triangle;
+// positions has spare capacity (reserveVertices).
+//
+// Thread safety: a mesh is plain data.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -25,9 +30,8 @@ struct TriangleMesh {
     std::vector<float> normals;    ///< 3 a vertex or empty; of any length: longer ones weigh more where interpolated
     std::vector<float> uvs;        ///< 2 a vertex or empty
     std::vector<float> tangents;   ///< 3 a vertex or empty
-    std::vector<std::uint32_t> indices;  ///< 3 a triangle
-    std::vector<std::int32_t>
-        faceIndices;  ///< 1 a triangle or empty: the number of the face it is cut from, as the file says
+    std::vector<std::uint32_t> indices;     ///< 3 a triangle
+    std::vector<std::int32_t> faceIndices;  ///< 1 a triangle or empty: the file's number of the face it is cut from
 
     std::size_t vertexCount() const { return positions.size() / 3; }
     std::size_t triangleCount() const { return indices.size() / 3; }
