@@ -7,7 +7,7 @@
 // Invariants: available() bytes may be read from data() on, until the next fill(), skip() or move.
 //
 // Hostile input: an inflated stream may be at most 64 MiB plus 100 times its compressed size long (deflate itself
-// allows 1032 times; of 250 real scenes and meshes none needed more than 21); what is damaged, cut short or beyond that
+// allows 1032 times; of 320 real scenes and meshes none needed more than 21); what is damaged, cut short or beyond that
 // throws Error(BadData).
 //
 // Thread safety: none; one instance belongs to one thread.
