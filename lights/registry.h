@@ -10,15 +10,22 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "lights/area_disk.h"
 #include "lights/area_rectangle.h"
+#include "lights/area_sphere.h"
+#include "lights/area_triangle.h"
+#include "lights/distant.h"
 #include "lights/infinite_constant.h"
+#include "lights/infinite_image.h"
+#include "lights/point.h"
 
 #include <span>
 #include <tuple>
 
 namespace penumbra {
 
-using LightTypes = TypeList<RectangleLight, ConstantInfiniteLight>;
+using LightTypes = TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, PointLight, DistantLight,
+                            ConstantInfiniteLight, ImageInfiniteLight>;
 
 /// What `list lights` shows: each plug-in once, though several types (the shapes of an area light) share it.
 std::vector<PluginInfo> lightPlugins();
@@ -85,9 +92,9 @@ Result forEachLightType(const LightTable& lights, const UInt<F>& id, Function&& 
     const UInt<F> place = gather(lights.places(), id);
     const UInt<F> tag = place >> int(LightTable::kRowBits), row = place & UInt<F>((1u << LightTable::kRowBits) - 1u);
     const auto ofTag = [&](std::uint32_t wanted, const UInt<F>& rows) {
-        Result r;
-        dispatch(LightTypes{}, wanted, [&]<class T>() { r = f.template operator()<T>(Records<F, T>(lights.rows<T>().data(), rows)); });
-        return r;
+        return dispatch(LightTypes{}, wanted, [&]<class T>() {
+            return f.template operator()<T>(Records<F, T>(lights.rows<T>().data(), rows));
+        });
     };
     const std::uint32_t firstTag = lane(tag, 0);
     Mask<F> mine = tag == UInt<F>(firstTag);

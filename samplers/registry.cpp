@@ -3,9 +3,7 @@
 namespace penumbra {
 
 const PluginInfo& Sampler::info() const {
-    const PluginInfo* found = nullptr;
-    dispatch(SamplerTypes{}, tag_, [&]<class T>() { found = &T::kInfo; });
-    return *found;
+    return dispatch(SamplerTypes{}, tag_, []<class T>() -> const PluginInfo& { return T::kInfo; });
 }
 
 bool makeSampler(std::string_view name, SamplerInput& input, Sampler& out) {

@@ -20,15 +20,13 @@ public:
 
     template <class F>
     F get1(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        F out;
-        dispatch(SamplerTypes{}, tag_, [&]<class T>() { out = std::get_if<T>(&sampler_)->template get1<F>(a, vertex, dim); });
-        return out;
+        return dispatch(SamplerTypes{}, tag_,
+                        [&]<class T>() { return std::get_if<T>(&sampler_)->template get1<F>(a, vertex, dim); });
     }
     template <class F>
     Vec2<F> get2(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        Vec2<F> out;
-        dispatch(SamplerTypes{}, tag_, [&]<class T>() { out = std::get_if<T>(&sampler_)->template get2<F>(a, vertex, dim); });
-        return out;
+        return dispatch(SamplerTypes{}, tag_,
+                        [&]<class T>() { return std::get_if<T>(&sampler_)->template get2<F>(a, vertex, dim); });
     }
     const PluginInfo& info() const;
 

@@ -42,6 +42,10 @@ enum class RouletteRule {
 };
 enum class Strategy { Mis, BsdfOnly, LightOnly };
 
+/// The words that the command line and headers of pictures use.
+const char* rouletteName(RouletteRule rule);
+const char* strategyName(Strategy strategy);
+
 /// Settings of integrators; each reads what concerns it.
 struct IntegratorSettings {
     std::string name = "path";

@@ -42,12 +42,16 @@ inline constexpr unsigned kTagOf<T, TypeList<T, Ts...>> = 0;
 template <class T, class U, class... Ts>
 inline constexpr unsigned kTagOf<T, TypeList<U, Ts...>> = 1 + kTagOf<T, TypeList<Ts...>>;
 
-/// Calls f.template operator()<T>() for the type whose tag is given. A chain of compares: lists are short, and the
-/// branch is well predicted because groups of lanes hold one tag.
-template <class... Ts, class Function>
-inline void dispatch(TypeList<Ts...>, unsigned tag, Function&& f) {
-    unsigned i = 0;
-    (void)((tag == i++ ? (f.template operator()<Ts>(), true) : false) || ...);
+/// Returns f.template operator()<T>() for the type whose tag is given. A chain of compares: lists are short, and the branch
+/// is well predicted because groups of lanes hold one tag. REQUIRES: tag is that of a type of the list.
+template <class T, class... Rest, class Function>
+inline decltype(auto) dispatch(TypeList<T, Rest...>, unsigned tag, Function&& f) {
+    if constexpr (sizeof...(Rest) == 0) {
+        return f.template operator()<T>();
+    } else {
+        if (tag == 0) return f.template operator()<T>();
+        return dispatch(TypeList<Rest...>{}, tag - 1, f);
+    }
 }
 
 template <class... Ts>

@@ -209,6 +209,7 @@ Accelerator::Accelerator(const Geometry& geometry, IntersectionMode mode) : stat
     state_->scenes.resize(geometry.groups.size());
     for (std::size_t i = geometry.groups.size(); i-- > 0;) state_->buildGroup(geometry, i, mode);   // the world last: it refers to the others
 }
+Accelerator::Accelerator() = default;
 Accelerator::~Accelerator() = default;
 Accelerator::Accelerator(Accelerator&&) noexcept = default;
 Accelerator& Accelerator::operator=(Accelerator&&) noexcept = default;

@@ -26,7 +26,7 @@ struct SceneBounds {
 
 class Accelerator {
 public:
-    Accelerator() = default;
+    Accelerator();
     /// Builds. `geometry` must outlive this and not change. Throws Error(OutOfMemory or Internal).
     Accelerator(const Geometry& geometry, IntersectionMode mode);
     ~Accelerator();
