@@ -34,8 +34,8 @@ SceneDescription readScene(const std::string& path, Warnings& warnings) {
         if (format.extension == extension) return format.read(path, warnings);
         known.push_back(format.extension);
     }
-    throw Error(ErrorKind::BadData, path + ": no reader for scenes of the extension " + quote(extension) +
-                                        suggestion(extension, known));
+    throw Error(ErrorKind::BadData,
+                path + ": no reader for scenes of the extension " + quote(extension) + suggestion(extension, known));
 }
 
 SceneDescription readSceneText(std::string_view text, const std::string& nameForMessages, const std::string& folder,

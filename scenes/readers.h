@@ -17,8 +17,8 @@ namespace penumbra {
 /// after the format's own says that the file is compressed.
 SceneDescription readScene(const std::string& path, Warnings& warnings);
 
-/// Reads a scene in the pbrt format from memory; `nameForMessages` stands for it in messages, the files that it names are
-/// found from `folder`.
+/// Reads a scene in the pbrt format from memory; `nameForMessages` stands for it in messages, the files that it names
+/// are found from `folder`.
 SceneDescription readSceneText(std::string_view text, const std::string& nameForMessages, const std::string& folder,
                                Warnings& warnings);
 

@@ -39,7 +39,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
         for (std::size_t j = 1; j <= b.size(); ++j) {
             const bool same = lower(a[i - 1]) == lower(b[j - 1]);
             row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-            const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            const bool swapped =
+                i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
             if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
         }
         before.swap(last);
@@ -52,7 +53,8 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 std::string quote(std::string_view text, std::size_t most) {
     std::size_t cut = std::min(most, text.size());
-    while (cut > 0 && cut < text.size() && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80) --cut;  // whole characters
+    while (cut > 0 && cut < text.size() && (static_cast<unsigned char>(text[cut]) & 0xc0) == 0x80)
+        --cut;  // whole characters
     std::string out = "'";
     out += escaped(text.substr(0, cut));
     out += cut < text.size() ? "...'" : "'";
@@ -95,10 +97,12 @@ std::string suggestion(std::string_view name, std::span<const std::string> known
     if (known.empty()) return "";
     const std::vector<std::string> near = nearestNames(name, known);
     std::string text;
-    for (const std::string& n : near) text += (text.empty() ? "; did you mean " : " or ") + quote(n);
+    for (const std::string& n : near)
+        text += (text.empty() ? "; did you mean " : " or ") + quote(n);
     if (!near.empty()) return text + "?";
     text = "; known: ";
-    for (std::size_t i = 0; i < std::min(known.size(), kMostKnown); ++i) text += (i == 0 ? "" : ", ") + escaped(known[i]);
+    for (std::size_t i = 0; i < std::min(known.size(), kMostKnown); ++i)
+        text += (i == 0 ? "" : ", ") + escaped(known[i]);
     return text + (known.size() > kMostKnown ? ", ..." : "");
 }
 

@@ -15,13 +15,13 @@ namespace penumbra {
 
 /// What went wrong, as the exit code that main() returns for it.
 enum class ErrorKind : int {
-    Usage = 64,          ///< the command line is wrong
-    BadData = 65,        ///< an input file is wrong
-    MissingInput = 66,   ///< an input file cannot be opened
-    Internal = 70,       ///< a bug, or bits that ought to be equal are not
+    Usage = 64,         ///< the command line is wrong
+    BadData = 65,       ///< an input file is wrong
+    MissingInput = 66,  ///< an input file cannot be opened
+    Internal = 70,      ///< a bug, or bits that ought to be equal are not
     OutOfMemory = 71,
-    CannotCreate = 73,   ///< an output file cannot be created
-    CannotWrite = 74,    ///< an output file cannot be written whole (full disk)
+    CannotCreate = 73,  ///< an output file cannot be created
+    CannotWrite = 74,   ///< an output file cannot be written whole (full disk)
     NotPermitted = 77,
     Configuration = 78,
 };
@@ -47,7 +47,8 @@ private:
 std::string formatPosition(std::span<const std::string> files, SourcePosition where);
 
 /// An error in a scene's text, thrown by code that does not hold the table of file names (the lexer, ParameterSet).
-/// Whoever holds the table catches it and throws placed(files) instead; uncaught it is still an Error, without its place.
+/// Whoever holds the table catches it and throws placed(files) instead; uncaught it is still an Error, without its
+/// place.
 class ErrorAt : public Error {
 public:
     ErrorAt(SourcePosition where, std::string message, ErrorKind kind = ErrorKind::BadData)
@@ -63,8 +64,8 @@ private:
 /// Text from a file as a message may show it: in single quotes, cut after `most` bytes, control characters escaped.
 std::string quote(std::string_view text, std::size_t most = 60);
 
-/// The names nearest to `name` by edit distance (insert, delete, replace, swap neighbours; case is ignored), best first, at
-/// most `most`; empty where none is near enough (more than a third of the letters differ).
+/// The names nearest to `name` by edit distance (insert, delete, replace, swap neighbours; case is ignored), best
+/// first, at most `most`; empty where none is near enough (more than a third of the letters differ).
 std::vector<std::string> nearestNames(std::string_view name, std::span<const std::string> known, std::size_t most = 2);
 
 /// "; did you mean 'diffuse'?", or the list ("; known: a, b, c", at most 50) where nothing is near.

@@ -5,8 +5,9 @@
 namespace penumbra {
 
 std::span<const std::string> parameterTypes() {
-    static const std::vector<std::string> types{"float",   "integer", "bool",   "string", "point2",    "vector2",  "point3",
-                                                "vector3", "normal",  "rgb",    "blackbody", "spectrum", "texture"};
+    static const std::vector<std::string> types{"float",     "integer",  "bool",    "string", "point2",
+                                                "vector2",   "point3",   "vector3", "normal", "rgb",
+                                                "blackbody", "spectrum", "texture"};
     return types;
 }
 
@@ -42,8 +43,8 @@ const Parameter* ParameterSet::findAny(std::string_view name) const {
 const Parameter* ParameterSet::findSingle(std::string_view type, std::string_view name) const {
     const Parameter* p = find(type, name);
     if (p && p->count() != 1)
-        throw ErrorAt(p->where, "'" + p->type + " " + p->name + "' must be one value, but " + std::to_string(p->count()) +
-                                    " are given");
+        throw ErrorAt(p->where, "'" + p->type + " " + p->name + "' must be one value, but " +
+                                    std::to_string(p->count()) + " are given");
     return p;
 }
 
@@ -102,7 +103,8 @@ void ParameterSet::warnUnused(std::span<const std::string> files, std::string_vi
 }
 
 void ParameterSet::markAllUsed() const {
-    for (const Parameter& p : list_) p.used = true;
+    for (const Parameter& p : list_)
+        p.used = true;
 }
 
 }  // namespace penumbra

@@ -23,9 +23,10 @@ struct Parameter {
     SourcePosition where;
     /// float, point*, vector*, normal, rgb, blackbody, numeric spectrum: floats. integer: ints. string, texture, named
     /// or file spectrum: strings. bool: bools (as bytes).
-    std::variant<std::vector<float>, std::vector<std::int32_t>, std::vector<std::string>, std::vector<std::uint8_t>> values;
-    std::string colorSpace;      ///< the space in force where an rgb was written ("srgb", ...)
-    bool inherited = false;      ///< came from an Attribute directive: never reported as unused
+    std::variant<std::vector<float>, std::vector<std::int32_t>, std::vector<std::string>, std::vector<std::uint8_t>>
+        values;
+    std::string colorSpace;  ///< the space in force where an rgb was written ("srgb", ...)
+    bool inherited = false;  ///< came from an Attribute directive: never reported as unused
     mutable bool used = false;
 
     const std::vector<float>& floats() const { return std::get<std::vector<float>>(values); }
@@ -33,7 +34,7 @@ struct Parameter {
     const std::vector<std::string>& strings() const { return std::get<std::vector<std::string>>(values); }
     const std::vector<std::uint8_t>& bools() const { return std::get<std::vector<std::uint8_t>>(values); }
     bool isText() const { return std::holds_alternative<std::vector<std::string>>(values); }
-    std::size_t count() const;   ///< of single values: 6 for a point3 array of two points
+    std::size_t count() const;  ///< of single values: 6 for a point3 array of two points
 };
 
 /// The words a scene file may use as the type of a parameter.
@@ -51,16 +52,17 @@ public:
     /// The last of that name, of any type; null where absent. Does not mark it used, but the name counts as asked for.
     const Parameter* findAny(std::string_view name) const;
 
-    float number(std::string_view name, float otherwise) const;          // "float"
-    int integer(std::string_view name, int otherwise) const;             // "integer"
-    bool boolean(std::string_view name, bool otherwise) const;           // "bool"
+    float number(std::string_view name, float otherwise) const;                   // "float"
+    int integer(std::string_view name, int otherwise) const;                      // "integer"
+    bool boolean(std::string_view name, bool otherwise) const;                    // "bool"
     std::string text(std::string_view name, const std::string& otherwise) const;  // "string"
     /// The array, empty where absent. `type` is one of the float-valued words; integers() is for "integer".
     const std::vector<float>& numbers(std::string_view type, std::string_view name) const;
     const std::vector<std::int32_t>& integers(std::string_view name) const;
 
-    /// Warns of every parameter that no look-up asked for: of one asked for as another type with that type, of any other
-    /// with the nearest name that was asked for. `object` is whose they are, as a message says it ("shape 'sphere'").
+    /// Warns of every parameter that no look-up asked for: of one asked for as another type with that type, of any
+    /// other with the nearest name that was asked for. `object` is whose they are, as a message says it ("shape
+    /// 'sphere'").
     void warnUnused(std::span<const std::string> files, std::string_view object, Warnings& warnings) const;
     /// Marks all parameters used (for objects that are substituted whole).
     void markAllUsed() const;

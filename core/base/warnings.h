@@ -8,9 +8,8 @@
 
 namespace penumbra {
 
-/// Collects the warnings of reading and building a scene. Equal texts are kept once, and at most kMost of them: a last text
-/// then says that more were left out.
-/// Thread safety: none; one instance belongs to one thread.
+/// Collects the warnings of reading and building a scene. Equal texts are kept once, and at most kMost of them: a last
+/// text then says that more were left out. Thread safety: none; one instance belongs to one thread.
 class Warnings {
 public:
     static constexpr std::size_t kMost = 1000;

@@ -9,7 +9,7 @@ namespace penumbra::pbrt {
 namespace {
 
 struct OptionRule {
-    const char* name;   ///< folded
+    const char* name;  ///< folded
     const char* type;
 };
 
@@ -67,10 +67,12 @@ void Parser::option() {
     p.where = sources_.peek().where;
     const std::string name = values_.readString("the name of the option");
     p.name = folded(name);
-    const auto rule = std::find_if(kOptions.begin(), kOptions.end(), [&](const OptionRule& r) { return r.name == p.name; });
+    const auto rule =
+        std::find_if(kOptions.begin(), kOptions.end(), [&](const OptionRule& r) { return r.name == p.name; });
     if (rule == kOptions.end()) {
         std::vector<std::string> known;
-        for (const OptionRule& r : kOptions) known.emplace_back(r.name);
+        for (const OptionRule& r : kOptions)
+            known.emplace_back(r.name);
         values_.skipValue();
         return warn("unknown option " + quote(name) + suggestion(p.name, known) + " (it is ignored)");
     }

@@ -34,7 +34,7 @@ void Parser::identity() {
 /// CTM <- CTM M for the active times. Equal matrices stay equal: both products are made by the same operations.
 void Parser::multiply(const Matrix4& m) {
     Matrix4 inverse;
-    if (!invert(m, inverse)) throw ErrorAt(where_, "the matrix of '" + std::string(directive_) + "' has no inverse");
+    if (!invert(m, inverse)) throw ErrorAt(where_, "the matrix of " + quote(directive_) + " has no inverse");
     TransformPair& ctm = state().ctm;
     if (state().startActive) ctm.start = ctm.start * m;
     if (state().endActive) ctm.end = ctm.end * m;
@@ -45,7 +45,7 @@ void Parser::multiply(const Matrix4& m) {
 void Parser::checkFinite(const Matrix4& m) const {
     for (const auto& row : m.m)
         if (!std::all_of(row.begin(), row.end(), fitsFloat))
-            throw ErrorAt(where_, "the transformation after '" + std::string(directive_) + "' has numbers beyond 1e38");
+            throw ErrorAt(where_, "the transformation after " + quote(directive_) + " has numbers beyond 1e38");
 }
 
 void Parser::translate() {
@@ -72,7 +72,8 @@ void Parser::lookAt() {
     values_.readNumbers(directive_, v);
     Matrix4 m;
     if (!penumbra::lookAt({v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}, m))
-        throw ErrorAt(where_, "'LookAt' gives no direction: the eye is at the target, or 'up' is zero or along the view");
+        throw ErrorAt(where_,
+                      "'LookAt' gives no direction: the eye is at the target, or 'up' is zero or along the view");
     multiply(m);
 }
 
@@ -81,16 +82,18 @@ Matrix4 Parser::readMatrix() {
     std::array<double, 16> v{};
     values_.readNumbers(directive_, v);
     const double w = v[15];
-    const double largest = std::abs(*std::max_element(
-        v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
+    const double largest =
+        std::abs(*std::max_element(v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
     const auto negligible = [&](double value) { return std::abs(value) <= 1e-6 * largest; };
     if (w == 0 || !negligible(v[3]) || !negligible(v[7]) || !negligible(v[11]))
-        throw ErrorAt(where_, "the matrix of '" + std::string(directive_) +
-                                  "' is no affine one: the 4th, 8th and 12th number have to be 0, the 16th not (the numbers go "
-                                  "column by column)");
+        throw ErrorAt(where_,
+                      "the matrix of " + quote(directive_) +
+                          " is no affine one: the 4th, 8th and 12th number have to be 0, the 16th not (the numbers "
+                          "go column by column)");
     Matrix4 m;
     for (std::size_t column = 0; column < 4; ++column)
-        for (std::size_t row = 0; row < 3; ++row) m.m[row][column] = v[4 * column + row] / w;
+        for (std::size_t row = 0; row < 3; ++row)
+            m.m[row][column] = v[4 * column + row] / w;
     return m;
 }
 
@@ -116,7 +119,8 @@ void Parser::coordSysTransform() {
         return;
     }
     std::vector<std::string> known;
-    for (const auto& entry : context_.coordinateSystems) known.push_back(entry.first);
+    for (const auto& entry : context_.coordinateSystems)
+        known.push_back(entry.first);
     warn("unknown coordinate system " + quote(name) + suggestion(name, known) + " (the directive is ignored)");
 }
 
@@ -138,7 +142,7 @@ void Parser::transformTimes() {
 }
 
 void Parser::attribute() {
-    static const std::vector<std::string> kinds{"shape", "light", "material", "medium", "texture"};   // as Defaults
+    static const std::vector<std::string> kinds{"shape", "light", "material", "medium", "texture"};  // as Defaults
     const SourcePosition kindWhere = sources_.peek().where;
     const std::string kind = values_.readString("the kind of the attribute");
     const auto found = std::find(kinds.begin(), kinds.end(), kind);

@@ -14,7 +14,8 @@ void Parser::shape() {
     shape.areaLight = state().areaLight;
     shape.medium = state().medium;
     chargeNames();
-    auto& shapes = context_.object >= 0 ? scene_.objects[static_cast<std::size_t>(context_.object)].shapes : scene_.shapes;
+    auto& shapes =
+        context_.object >= 0 ? scene_.objects[static_cast<std::size_t>(context_.object)].shapes : scene_.shapes;
     shapes.push_back(std::move(shape));
 }
 
@@ -47,7 +48,7 @@ void Parser::texture() {
     texture.name = values_.readString("the name of the texture");
     const SourcePosition kindWhere = sources_.peek().where;
     const std::string kind = values_.readString("\"float\" or \"spectrum\"");
-    if (kind != "float" && kind != "spectrum" && kind != "color")   // color: the word of pbrt-v3
+    if (kind != "float" && kind != "spectrum" && kind != "color")  // color: the word of pbrt-v3
         throw ErrorAt(kindWhere, "expected \"float\" or \"spectrum\" as the kind of the texture, found " + quote(kind));
     texture.isFloat = kind == "float";
     texture.type = readTypeOf("texture");

@@ -23,8 +23,8 @@ bool endsWord(char c) {
 
 enum class NumberFault { None, NotANumber, OutOfRange };
 
-/// Where a number too small for its type and one too large look alike (std::from_chars), its power of ten tells them apart.
-/// REQUIRES: a decimal number that from_chars has understood, without sign.
+/// Where a number too small for its type and one too large look alike (std::from_chars), its power of ten tells them
+/// apart. REQUIRES: a decimal number that from_chars has understood, without sign.
 bool isBelowOne(const char* p, const char* end) {
     long beforePoint = 0, zerosAfterPoint = 0;
     bool point = false, nonzero = false;
@@ -38,10 +38,11 @@ bool isBelowOne(const char* p, const char* end) {
         }
     }
     long exponent = 0;
-    if (p != end) {   // at the e
+    if (p != end) {  // at the e
         const bool negative = *++p == '-';
         if (!isDigit(*p)) ++p;
-        for (; p != end; ++p) exponent = std::min(10 * exponent + (*p - '0'), 1000000000L);
+        for (; p != end; ++p)
+            exponent = std::min(10 * exponent + (*p - '0'), 1000000000L);
         if (negative) exponent = -exponent;
     }
     return beforePoint - zerosAfterPoint + exponent <= 0;
@@ -61,7 +62,7 @@ template <class T>
 NumberFault scanFloating(const char* p, const char* end, T& value, const char*& after) {
     const bool negative = p != end && *p == '-';
     if (p != end && (*p == '-' || *p == '+')) ++p;
-    if (p == end || !(isDigit(*p) || *p == '.')) return NumberFault::NotANumber;   // from_chars would take "inf"
+    if (p == end || !(isDigit(*p) || *p == '.')) return NumberFault::NotANumber;  // from_chars would take "inf"
     if (*p == '0' && end - p > 2 && (p[1] == 'x' || p[1] == 'X')) {
         double wide = 0;
         const NumberFault fault = scanHexadecimal(p + 2, end, negative, wide, after);
@@ -103,7 +104,8 @@ ErrorAt numberError(const Token& word, NumberFault fault) {
                                                             : " is out of range (at most 1.8e308)";
         return ErrorAt(word.where, "the number " + quote(word.text) + range);
     }
-    const char* expected = std::is_same_v<T, std::int32_t> ? "expected an integer, found " : "expected a number, found ";
+    const char* expected =
+        std::is_same_v<T, std::int32_t> ? "expected an integer, found " : "expected a number, found ";
     return ErrorAt(word.where, expected + quote(word.text));
 }
 
@@ -119,7 +121,8 @@ std::optional<std::size_t> findInvalidUtf8(std::string_view text) {
         if ((first & 0xf0) == 0xe0) length = 3;
         if (first >= 0xf0 && first < 0xf5) length = 4;
         bool valid = length > 0;
-        for (std::size_t k = 1; k < length; ++k) valid = valid && continues(i + k);
+        for (std::size_t k = 1; k < length; ++k)
+            valid = valid && continues(i + k);
         const unsigned second = byte(i + 1);
         if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0) || (first == 0xf0 && second < 0x90) ||
             (first == 0xf4 && second >= 0x90) || !valid)
@@ -132,15 +135,22 @@ std::optional<std::size_t> findInvalidUtf8(std::string_view text) {
 /// The character that `\c` stands for, if any.
 std::optional<char> unescape(char c) {
     switch (c) {
-        case 'b': return '\b';
-        case 'f': return '\f';
-        case 'n': return '\n';
-        case 'r': return '\r';
-        case 't': return '\t';
+        case 'b':
+            return '\b';
+        case 'f':
+            return '\f';
+        case 'n':
+            return '\n';
+        case 'r':
+            return '\r';
+        case 't':
+            return '\t';
         case '\\':
         case '\'':
-        case '"': return c;
-        default: return std::nullopt;
+        case '"':
+            return c;
+        default:
+            return std::nullopt;
     }
 }
 
@@ -154,11 +164,16 @@ SourcePosition insideString(const Token& token, std::size_t offset) {
 
 std::string describe(const Token& token) {
     switch (token.kind) {
-        case TokenKind::Word: return quote(token.text);
-        case TokenKind::String: return "the string " + quote(token.text);
-        case TokenKind::Open: return "'['";
-        case TokenKind::Close: return "']'";
-        case TokenKind::End: break;
+        case TokenKind::Word:
+            return quote(token.text);
+        case TokenKind::String:
+            return "the string " + quote(token.text);
+        case TokenKind::Open:
+            return "'['";
+        case TokenKind::Close:
+            return "']'";
+        case TokenKind::End:
+            break;
     }
     return "the end of the file";
 }
@@ -173,7 +188,7 @@ std::string decodeString(const Token& token) {
             out += token.text[i];
             continue;
         }
-        const std::optional<char> c = unescape(token.text[i + 1]);   // the lexer ends no string behind a backslash
+        const std::optional<char> c = unescape(token.text[i + 1]);  // the lexer ends no string behind a backslash
         if (!c)
             throw ErrorAt(insideString(token, i), "unknown escape " + quote(token.text.substr(i, 2)) +
                                                       " in a string; known: \\b \\f \\n \\r \\t \\\\ \\' \\\"");
@@ -228,9 +243,11 @@ void Lexer::skipBlanks() {
     for (; at_ != end_; ++at_) {
         switch (*at_) {
             case ' ':
-            case '\t': break;
+            case '\t':
+                break;
             case '#':
-                while (at_ + 1 != end_ && at_[1] != '\n' && at_[1] != '\r') ++at_;
+                while (at_ + 1 != end_ && at_[1] != '\n' && at_[1] != '\r')
+                    ++at_;
                 break;
             case '\r':
                 if (at_ + 1 != end_ && at_[1] == '\n') break;
@@ -239,7 +256,8 @@ void Lexer::skipBlanks() {
                 ++line_;
                 lineStart_ = at_ + 1;
                 break;
-            default: return;
+            default:
+                return;
         }
     }
 }
@@ -259,7 +277,8 @@ Token Lexer::readString() {
     const char* const begin = at_ + 1;
     const char* p = begin;
     const auto endsLine = [this](const char* c) { return c == end_ || *c == '\n' || *c == '\r'; };
-    while (!endsLine(p) && *p != '"') p += *p == '\\' && !endsLine(p + 1) ? 2 : 1;
+    while (!endsLine(p) && *p != '"')
+        p += *p == '\\' && !endsLine(p + 1) ? 2 : 1;
     if (endsLine(p)) {
         const std::string_view text(begin, static_cast<std::size_t>(p - begin));
         throw ErrorAt(where, "the string " + quote(text) + " has no closing quote on its line");

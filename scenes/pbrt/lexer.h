@@ -1,13 +1,14 @@
 // Lexer: the tokens of one text in the pbrt format, with their places.
 //
-// Conventions: blanks are space, tab, LF, CR; `#` starts a comment; CR LF, LF and CR each end a line. Lines and columns count
-// from 1, columns in bytes (a byte order mark at the beginning counts for nothing). A bare word ends at a blank, `"`, `[`,
+// Conventions: blanks are space, tab, LF, CR; `#` starts a comment; CR LF, LF and CR each end a line. Lines and columns
+// count from 1, columns in bytes (a byte order mark at the beginning counts for nothing). A bare word ends at a blank,
+// `"`, `[`,
 // `]` or `#`. A string may not hold a raw line end.
 // Numbers: decimal or hexadecimal (0x), an optional sign, independent of the locale; "inf" and "nan" are not numbers; a
 // number too small for its type is zero, one too large an error.
 //
-// Invariants: tokens are views into the text, which must outlive them. Nothing is allocated but by decodeString and errors.
-// Errors: ErrorAt with the place of the token (of the very byte, inside strings).
+// Invariants: tokens are views into the text, which must outlive them. Nothing is allocated but by decodeString and
+// errors. Errors: ErrorAt with the place of the token (of the very byte, inside strings).
 #pragma once
 
 #include "core/base/error.h"
@@ -23,8 +24,8 @@ enum class TokenKind : std::uint8_t { Word, String, Open, Close, End };
 
 struct Token {
     TokenKind kind = TokenKind::End;
-    std::string_view text;   ///< a string's lies between the quotes, escapes still in it
-    SourcePosition where;    ///< of the first character, a string's quote included
+    std::string_view text;  ///< a string's lies between the quotes, escapes still in it
+    SourcePosition where;   ///< of the first character, a string's quote included
 };
 
 /// The token as a message names it: 'word', the string 'text', '[', ']', the end of the file.
@@ -50,16 +51,14 @@ public:
     /// The next token; End for ever at the end.
     Token next();
 
-    /// Appends the numbers from here to the first token that is no word; throws at a word that is no number. This is the
-    /// path of large meshes.
+    /// Appends the numbers from here to the first token that is no word; throws at a word that is no number. This is
+    /// the path of large meshes.
     template <class T>
     void appendNumbers(std::vector<T>& out);
 
 private:
     void skipBlanks();
-    SourcePosition position() const {
-        return {file_, line_, static_cast<std::uint32_t>(at_ - lineStart_) + 1};
-    }
+    SourcePosition position() const { return {file_, line_, static_cast<std::uint32_t>(at_ - lineStart_) + 1}; }
     Token readString();
     Token readWord();
 

@@ -81,26 +81,26 @@ void Parser::readDirectives() {
 void Parser::failUnknown(const Token& token) const {
     if (token.kind != TokenKind::Word || looksLikeNumber(token.text))
         throw ErrorAt(token.where, "expected a directive, found " + describe(token) +
-                                       (directive_.empty() ? "" : " after '" + std::string(directive_) + "'"));
+                                       (directive_.empty() ? "" : " after " + quote(directive_)));
     std::vector<std::string> names;
-    for (const Directive& d : directives()) names.emplace_back(d.name);
+    for (const Directive& d : directives())
+        names.emplace_back(d.name);
     throw ErrorAt(token.where, "unknown directive " + quote(token.text) + suggestion(token.text, names));
 }
 
 void Parser::checkPlace(const Directive& d) const {
     const bool inWorld = worldBegan_.line > 0;
     if (d.where == Where::BeforeWorld && inWorld)
-        throw ErrorAt(where_, "'" + std::string(d.name) + "' has to come before 'WorldBegin', which is at " +
-                                  scene_.position(worldBegan_));
-    if (d.where == Where::InWorld && !inWorld)
-        throw ErrorAt(where_, "'" + std::string(d.name) + "' has to come after 'WorldBegin'");
+        throw ErrorAt(where_,
+                      quote(d.name) + " has to come before 'WorldBegin', which is at " + scene_.position(worldBegan_));
+    if (d.where == Where::InWorld && !inWorld) throw ErrorAt(where_, quote(d.name) + " has to come after 'WorldBegin'");
 }
 
 /// At the end of the scene or of an imported part nothing is left that an open attribute block could change, so it is
 /// closed there with a warning; an object may lack shapes.
 void Parser::closeBlocksAtEnd() {
     for (const Block& block : context_.blocks) {
-        const std::string message = "'" + std::string(block.beganWith) + "' has no '" + std::string(block.endsWith) + "'";
+        const std::string message = quote(block.beganWith) + " has no " + quote(block.endsWith);
         if (block.beganWith == "ObjectBegin") throw ErrorAt(block.where, message);
         warnings_.add(scene_.position(block.where) + ": " + message + " (the end of the file closes it)");
     }
@@ -114,11 +114,11 @@ void Parser::openBlock(std::string_view beganWith, std::string_view endsWith) {
 }
 
 void Parser::closeBlock() {
-    if (context_.blocks.empty()) throw ErrorAt(where_, "'" + std::string(directive_) + "' ends no block");
+    if (context_.blocks.empty()) throw ErrorAt(where_, quote(directive_) + " ends no block");
     Block& block = context_.blocks.back();
     if (block.endsWith != directive_)
-        throw ErrorAt(where_, "expected '" + std::string(block.endsWith) + "' for the '" + std::string(block.beganWith) +
-                                  "' at " + scene_.position(block.where) + ", found '" + std::string(directive_) + "'");
+        throw ErrorAt(where_, "expected " + quote(block.endsWith) + " for the " + quote(block.beganWith) + " at " +
+                                  scene_.position(block.where) + ", found " + quote(directive_));
     state() = std::move(block.saved);
     context_.blocks.pop_back();
 }
@@ -149,8 +149,8 @@ Entity Parser::readEntity(std::string_view what) {
     return entity;
 }
 
-/// The directive's own parameters behind those that Attribute directives gave; an inherited one gives way to an own one of
-/// the same name, whatever its type.
+/// The directive's own parameters behind those that Attribute directives gave; an inherited one gives way to an own one
+/// of the same name, whatever its type.
 ParameterSet Parser::readParametersWith(Defaults kind) {
     ParameterSet own = readParameters();
     const auto& defaults = state().defaults[static_cast<std::size_t>(kind)];
@@ -164,7 +164,8 @@ ParameterSet Parser::readParametersWith(Defaults kind) {
         charge(bytes);
         all.add(inherited);
     }
-    for (Parameter& p : own.all()) all.add(std::move(p));
+    for (Parameter& p : own.all())
+        all.add(std::move(p));
     return all;
 }
 

@@ -1,14 +1,14 @@
 // Parser: the directives of a pbrt scene, in order, into a SceneDescription.
 //
-// Grammar and state only: whether a shape or material of some type exists, and what its parameters mean, is the business of
-// whoever builds the scene; names of materials, media, textures and objects are resolved there too. What pbrt calls an error
-// at once is an ErrorAt here; what it only reports (an unknown colour space) is a warning, and so are WorldEnd (of pbrt-v3),
-// an unknown Option, and an AttributeBegin that the end of the file closes.
-// Matrices of things that do not move have start == end exactly.
+// Grammar and state only: whether a shape or material of some type exists, and what its parameters mean, is the
+// business of whoever builds the scene; names of materials, media, textures and objects are resolved there too. What
+// pbrt calls an error at once is an ErrorAt here; what it only reports (an unknown colour space) is a warning, and so
+// are WorldEnd (of pbrt-v3), an unknown Option, and an AttributeBegin that the end of the file closes. Matrices of
+// things that do not move have start == end exactly.
 //
-// Hostile input: blocks nest at most kDeepestBlocks deep; a matrix without inverse is an error; what a directive inherits
-// (Attribute parameters, names) beyond kFreelyInherited bytes may take kMostInherited bytes in all.
-// Thread safety: none; one instance reads one scene.
+// Hostile input: blocks nest at most kDeepestBlocks deep; a matrix without inverse is an error; what a directive
+// inherits (Attribute parameters, names) beyond kFreelyInherited bytes may take kMostInherited bytes in all. Thread
+// safety: none; one instance reads one scene.
 #pragma once
 
 #include "scenes/pbrt/sources.h"
@@ -25,7 +25,7 @@ class Parser {
 public:
     static constexpr std::size_t kDeepestBlocks = 4096;
     static constexpr std::uint64_t kFreelyInherited = 1024;
-    static constexpr std::uint64_t kMostInherited = std::uint64_t{1} << 30;
+    static constexpr std::uint64_t kMostInherited = std::uint64_t{128} << 20;
 
     /// All three must outlive this object; a top file is open in `sources`.
     Parser(Sources& sources, SceneDescription& scene, Warnings& warnings)
@@ -56,7 +56,9 @@ private:
     void warn(const std::string& text);
     void define(Names& names, const std::string& name, std::string_view what);
     void charge(std::uint64_t inherited);
-    void chargeNames() { charge(state().material.name.size() + state().medium.inside.size() + state().medium.outside.size()); }
+    void chargeNames() {
+        charge(state().material.name.size() + state().medium.inside.size() + state().medium.outside.size());
+    }
     ParameterSet readParameters() { return values_.readParameters(state().colorSpace); }
     ParameterSet readParametersWith(Defaults kind);
     std::string readTypeOf(std::string_view what) { return values_.readString("the type of the " + std::string(what)); }
@@ -117,9 +119,9 @@ private:
     Warnings& warnings_;
     ValueReader values_;
     Context context_;
-    std::string_view directive_;   ///< the word of the one being read
-    SourcePosition where_;         ///< its place
-    SourcePosition worldBegan_;    ///< line 0: not yet
+    std::string_view directive_;  ///< the word of the one being read
+    SourcePosition where_;        ///< its place
+    SourcePosition worldBegan_;   ///< line 0: not yet
     std::uint64_t inheritedBytes_ = 0;
     Names floatTextures_, spectrumTextures_, materials_, media_, objects_;
 };

@@ -1,18 +1,19 @@
 #include "scenes/pbrt/sources.h"
 
 #include "core/base/byte_reader.h"
+#include "core/base/sha256.h"
 
+#include <sys/stat.h>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <sys/stat.h>
 
 namespace penumbra::pbrt {
 
 namespace {
 
-constexpr std::size_t kMostOfPath = 1000;   // bytes of a path that a message shows
+constexpr std::size_t kMostOfPath = 1000;  // bytes of a path that a message shows
 
 /// The whole text; a NUL byte ends the reading at once, so that a huge file that is no text costs nothing.
 std::string readText(ByteReader reader, std::uint64_t expectedSize) {
@@ -31,7 +32,8 @@ std::string readText(ByteReader reader, std::uint64_t expectedSize) {
 std::string readStandardInput() {
     std::string bytes;
     std::vector<char> block(std::size_t{1} << 16);
-    while (const std::size_t got = std::fread(block.data(), 1, block.size(), stdin)) bytes.append(block.data(), got);
+    while (const std::size_t got = std::fread(block.data(), 1, block.size(), stdin))
+        bytes.append(block.data(), got);
     if (std::ferror(stdin)) throw Error(ErrorKind::MissingInput, "standard input cannot be read");
     return bytes;
 }
@@ -44,9 +46,15 @@ std::uint32_t Sources::fileIndex(const std::string& name) {
     return entry->second;
 }
 
+void Sources::noteDigest(std::uint32_t file, std::string_view text) {
+    scene_.digests.resize(scene_.files.size());
+    if (scene_.digests[file].empty()) scene_.digests[file] = sha256OfBytes(text);
+}
+
 void Sources::openText(std::string_view text, const std::string& name) {
     const std::uint32_t file = fileIndex(name);
     checkEncoding(text, file);
+    noteDigest(file, text);
     open_.push_back(std::make_unique<Source>(std::string(), text, file));
 }
 
@@ -55,6 +63,7 @@ void Sources::openStandardInput() {
     const std::string bytes = readStandardInput();
     std::string text = readText(ByteReader::overMemory(bytes, scene_.files[file]), bytes.size());
     checkEncoding(text, file);
+    noteDigest(file, text);
     open_.push_back(std::make_unique<Source>(std::move(text), std::string_view(), file));
 }
 
@@ -70,7 +79,7 @@ void Sources::include(const std::string& name, SourcePosition where) {
         push(path, status, where);
     } catch (const ErrorAt&) {
         throw;
-    } catch (const Error& e) {   // of the bytes: a damaged gzip file
+    } catch (const Error& e) {  // of the bytes: a damaged gzip file
         throw ErrorAt(where, e.what(), e.kind());
     }
 }
@@ -94,11 +103,14 @@ void Sources::push(const std::string& path, const FileStatus& status, SourcePosi
     open_.back()->includedAt = where;
     open_.back()->identity = status.identity;
     checkEncoding(open_.back()->text, file);
+    noteDigest(file, open_.back()->text);
 }
 
 void Sources::checkNesting(const Identity& identity, const std::string& name, SourcePosition where) const {
     const bool inside = std::any_of(open_.begin(), open_.end(), [&](const auto& s) { return s->identity == identity; });
-    if (inside) throw ErrorAt(where, "the file " + quote(name, kMostOfPath) + " is being read already: it would include itself for ever");
+    if (inside)
+        throw ErrorAt(
+            where, "the file " + quote(name, kMostOfPath) + " is being read already: it would include itself for ever");
     if (open_.size() >= kDeepest)
         throw ErrorAt(where, "files are included more than " + std::to_string(kDeepest) + " deep");
 }
@@ -108,7 +120,8 @@ void Sources::chargeText(const Identity& identity, std::uint64_t bytes, SourcePo
     if (++filesOpened_ > kMostFiles)
         throw ErrorAt(where, "more than " + std::to_string(kMostFiles) + " files are included");
     if (repeatedBytes_ > kRepeatedAllowed + kRepeats * distinctBytes_)
-        throw ErrorAt(where, "files are included again and again, " + std::to_string(repeatedBytes_ >> 20) + " MiB by now");
+        throw ErrorAt(where,
+                      "files are included again and again, " + std::to_string(repeatedBytes_ >> 20) + " MiB by now");
 }
 
 std::size_t Sources::beginPart(const std::string& name, SourcePosition where) {
@@ -117,7 +130,7 @@ std::size_t Sources::beginPart(const std::string& name, SourcePosition where) {
 }
 
 void Sources::endPart(std::size_t outerFloor) {
-    peeked_.reset();   // the End of the part
+    peeked_.reset();  // the End of the part
     open_.resize(floor_ - 1);
     floor_ = outerFloor;
 }

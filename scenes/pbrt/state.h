@@ -18,7 +18,7 @@ inline constexpr std::size_t kDefaultsKinds = 5;
 
 /// Everything that AttributeBegin saves and AttributeEnd restores.
 struct AttributeState {
-    TransformPair ctm;   ///< world block: object to world; before WorldBegin: camera from world
+    TransformPair ctm;  ///< world block: object to world; before WorldBegin: camera from world
     bool startActive = true, endActive = true;
     bool reverseOrientation = false;
     MaterialReference material{{}, 0, {}};
@@ -31,7 +31,7 @@ struct AttributeState {
 
 /// A block that is open: what began it, and the state to go back to.
 struct Block {
-    std::string_view beganWith, endsWith;   ///< directives
+    std::string_view beganWith, endsWith;  ///< directives
     SourcePosition where;
     AttributeState saved;
 };
@@ -41,7 +41,7 @@ struct Context {
     AttributeState state;
     std::vector<Block> blocks;
     std::map<std::string, TransformPair> coordinateSystems;
-    int object = -1;   ///< index of the object definition that is open, -1 = none
+    int object = -1;  ///< index of the object definition that is open, -1 = none
 };
 
 }  // namespace penumbra::pbrt

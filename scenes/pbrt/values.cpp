@@ -13,7 +13,7 @@ enum class ValueKind { Numbers, Integers, Booleans, Strings, NumbersOrStrings };
 struct TypeRule {
     std::string_view type;
     ValueKind kind;
-    std::size_t multiple;   ///< the values come in groups of so many
+    std::size_t multiple;  ///< the values come in groups of so many
 };
 
 constexpr std::array<TypeRule, 13> kTypeRules{{
@@ -33,11 +33,12 @@ constexpr std::array<TypeRule, 13> kTypeRules{{
 }};
 
 /// The words that pbrt-v3 used.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOldTypes{{
-    {"point", "point3"}, {"vector", "vector3"}, {"color", "rgb"}, {"normal3", "normal"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kOldTypes{
+    {{"point", "point3"}, {"vector", "vector3"}, {"color", "rgb"}, {"normal3", "normal"}}};
 
 const TypeRule* findRule(std::string_view type) {
-    const auto rule = std::find_if(kTypeRules.begin(), kTypeRules.end(), [&](const TypeRule& r) { return r.type == type; });
+    const auto rule =
+        std::find_if(kTypeRules.begin(), kTypeRules.end(), [&](const TypeRule& r) { return r.type == type; });
     return rule == kTypeRules.end() ? nullptr : &*rule;
 }
 
@@ -86,7 +87,7 @@ void ValueReader::readNumbers(std::string_view directive, std::span<double> out)
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Token token = sources_.next();
         if (token.kind != TokenKind::Word || !looksLikeNumber(token.text))
-            throw ErrorAt(token.where, "'" + std::string(directive) + "' needs " + std::to_string(out.size()) +
+            throw ErrorAt(token.where, quote(directive) + " needs " + std::to_string(out.size()) +
                                            " numbers, but after " + std::to_string(i) + " comes " + describe(token));
         out[i] = parseNumber<double>(token);
     }
@@ -129,7 +130,8 @@ Parameter ValueReader::readDeclaration() {
 
 void ValueReader::addOrReplace(ParameterSet& set, Parameter p) {
     std::vector<Parameter>& list = set.all();
-    const auto twin = std::find_if(list.begin(), list.end(), [&](const Parameter& other) { return other.name == p.name; });
+    const auto twin =
+        std::find_if(list.begin(), list.end(), [&](const Parameter& other) { return other.name == p.name; });
     if (twin != list.end()) {
         warnings_.add(scene_.position(p.where) + ": parameter " + declared(p) + " replaces " + declared(*twin) +
                       " of the same directive");
@@ -165,7 +167,7 @@ std::vector<T> ValueReader::readNumberList() {
         const Token token = sources_.next();
         if (token.kind == TokenKind::Close) return list;
         if (token.kind != TokenKind::Word) failInList(first, token);
-        list.push_back(parseNumber<T>(token));   // an included file has ended inside the list
+        list.push_back(parseNumber<T>(token));  // an included file has ended inside the list
     }
 }
 
@@ -188,8 +190,12 @@ void ValueReader::readSpectrum(Parameter& p) {
 
 void ValueReader::readValue(Parameter& p) {
     switch (findRule(p.type)->kind) {
-        case ValueKind::Numbers: p.values = readNumberList<float>(); break;
-        case ValueKind::Integers: p.values = readNumberList<std::int32_t>(); break;
+        case ValueKind::Numbers:
+            p.values = readNumberList<float>();
+            break;
+        case ValueKind::Integers:
+            p.values = readNumberList<std::int32_t>();
+            break;
         case ValueKind::Booleans: {
             std::vector<std::uint8_t> list;
             visitValue([&](const Token& token) { list.push_back(parseBoolean(token)); });
@@ -202,7 +208,9 @@ void ValueReader::readValue(Parameter& p) {
             p.values = std::move(list);
             break;
         }
-        case ValueKind::NumbersOrStrings: readSpectrum(p); break;
+        case ValueKind::NumbersOrStrings:
+            readSpectrum(p);
+            break;
     }
     checkValue(p);
 }
@@ -219,8 +227,8 @@ void ValueReader::checkValue(const Parameter& p) {
         throw ErrorAt(p.where, "parameter " + declared(p) + " needs numbers in groups of " + std::to_string(multiple) +
                                    ", but has " + std::to_string(count));
     if (p.type == "texture" && count != 1)
-        throw ErrorAt(p.where, "parameter " + declared(p) + " needs the name of one texture, but has " +
-                                   std::to_string(count));
+        throw ErrorAt(p.where,
+                      "parameter " + declared(p) + " needs the name of one texture, but has " + std::to_string(count));
     if (p.type != "rgb") return;
     const auto negative = std::find_if(p.floats().begin(), p.floats().end(), [](float value) { return value < 0; });
     if (negative != p.floats().end())

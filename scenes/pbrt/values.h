@@ -1,14 +1,12 @@
 // Values: what follows the word of a directive: strings, numbers, and lists of `"type name" value` parameters.
 //
-// A value is one token or a list in brackets. Habits of files for pbrt-v3 are understood: quoted "true" and "false", the
-// types point, vector, color, normal3, and brackets around any fixed number of numbers.
+// A value is one token or a list in brackets. Habits of files for pbrt-v3 are understood: quoted "true" and "false",
+// the types point, vector, color, normal3, and brackets around any fixed number of numbers.
 //
-// Invariants of what readParameters returns: no two parameters have one name (the last wins, with a warning); no value is
-// empty; the number of values fits the type (a multiple of 3 for point3, ...; one for texture); rgb is not negative, and
-// knows its colour space.
-// Hostile input: a directive has at most kMostParameters parameters.
-// Errors: ErrorAt with the place of what was found.
-// Thread safety: none; one instance belongs to one thread.
+// Invariants of what readParameters returns: no two parameters have one name (the last wins, with a warning); no value
+// is empty; the number of values fits the type (a multiple of 3 for point3, ...; one for texture); rgb is not negative,
+// and knows its colour space. Hostile input: a directive has at most kMostParameters parameters. Errors: ErrorAt with
+// the place of what was found. Thread safety: none; one instance belongs to one thread.
 #pragma once
 
 #include "core/base/warnings.h"
