@@ -94,6 +94,7 @@ struct ObjectInstance {
 struct SceneDescription {
     std::string topFile;                    ///< as given; relative names resolve against its folder, then the working directory
     std::vector<std::string> files;         ///< every text file read; SourcePosition::file indexes it
+    std::vector<std::string> digests;       ///< SHA-256 of the texts of `files` (inflated), in hexadecimal
     CameraEntity camera;
     FilmEntity film;
     Entity sampler, integrator, filter, accelerator;
