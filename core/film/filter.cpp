@@ -1,5 +1,6 @@
 #include "core/film/filter.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace penumbra {
@@ -33,36 +34,55 @@ double filterValue(const FilterSettings& s, double radius, double x) {
     return 0;
 }
 
-Filter::Axis::Axis(const FilterSettings& s, double r) : radius(float(r)) {
-    // The distribution function of |f| on a fine grid, by Simpson's rule; signs are constant within a fine cell but for
-    // the one that holds a zero, where |f| is next to nothing.
-    constexpr int kFine = 1 << 16;
+Filter::Axis::Axis(const FilterSettings& s, double r)
+    : radius(float(r)), isPositive(s.kind != FilterKind::Mitchell && s.kind != FilterKind::Sinc) {
+    // The distribution function of |f| on a fine grid, by Simpson's rule; signs are taken as constant within a fine cell,
+    // which is wrong only in those that hold a zero, where |f| is next to nothing.
+    constexpr std::size_t kFine = 1 << 16;
+    const double h = 2 * r / double(kFine);
     std::vector<double> cumulative(kFine + 1, 0.0);
-    double signedSum = 0;
-    const double h = 2 * r / kFine;
-    for (int i = 0; i < kFine; ++i) {
-        const double x = -r + i * h;
+    std::vector<std::size_t> zeros;   // fine knots behind which the sign differs
+    double signedSum = 0, previous = 0;
+    for (std::size_t i = 0; i < kFine; ++i) {
+        const double x = -r + double(i) * h;
         const double f = (filterValue(s, r, x) + 4 * filterValue(s, r, x + h / 2) + filterValue(s, r, x + h)) * h / 6;
+        const double sign = std::fabs(f) < 1e-12 * h ? 0 : f;   // near a double zero rounding decides the sign
+        if (sign * previous < 0) zeros.push_back(i);
+        if (sign != 0) previous = sign;
         signedSum += f;
-        cumulative[std::size_t(i) + 1] = cumulative[std::size_t(i)] + std::fabs(f);
+        cumulative[i + 1] = cumulative[i] + std::fabs(f);
     }
     const double total = cumulative.back();
-    normalization = s.kind == FilterKind::Mitchell || s.kind == FilterKind::Sinc ? total / signedSum : 1;
+    if (!isPositive) normalization = total / signedSum;
+
     inverse.resize(kCells + 1);
-    sign.resize(kCells + 1, 1.f);
     std::size_t j = 0;
-    for (int i = 0; i <= kCells; ++i) {
-        const double target = total * i / kCells;
-        while (j + 1 < cumulative.size() - 1 && cumulative[j + 1] < target) ++j;
+    for (std::size_t i = 0; i <= kCells; ++i) {
+        const double target = total * double(i) / kCells;
+        while (j + 1 < kFine && cumulative[j + 1] < target) ++j;
         const double span = cumulative[j + 1] - cumulative[j];
-        const double t = span > 0 ? std::fmin((target - cumulative[j]) / span, 1.0) : 0.0;
-        inverse[std::size_t(i)] = float(-r + (double(j) + t) * h);
+        const double t = span > 0 ? std::clamp((target - cumulative[j]) / span, 0.0, 1.0) : 0.0;
+        inverse[i] = float(-r + (double(j) + t) * h);
     }
     inverse[0] = float(-r);
     inverse[kCells] = float(r);
-    for (int i = 0; i < kCells; ++i) {
-        const double middle = 0.5 * (double(inverse[std::size_t(i)]) + inverse[std::size_t(i) + 1]);
-        sign[std::size_t(i)] = filterValue(s, r, middle) < 0 ? -1.f : 1.f;
+    for (std::size_t i = 0; i < kCells; ++i) {
+        const double a = std::fabs(filterValue(s, r, double(inverse[i]))), b = std::fabs(filterValue(s, r, double(inverse[i + 1])));
+        start.push_back(a + b > 0 ? float(a / (a + b)) : 0.5f);
+    }
+    if (isPositive) return;
+
+    sign.assign(kCells, 1.f);
+    split.assign(kCells, 1.f);
+    splitPlace.assign(inverse.begin() + 1, inverse.end());
+    for (std::size_t i = 0; i < kCells; ++i) {
+        const double start = total * double(i) / kCells, end = total * double(i + 1) / kCells;
+        for (std::size_t z : zeros)
+            if (cumulative[z] > start && cumulative[z] < end) {
+                split[i] = float((cumulative[z] - start) / (end - start));
+                splitPlace[i] = float(-r + double(z) * h);
+            }
+        if (filterValue(s, r, 0.5 * (double(inverse[i]) + double(splitPlace[i]))) < 0) sign[i] = -1.f;
     }
 }
 

@@ -44,26 +44,43 @@ public:
     /// What the mean of signed samples has to be multiplied by.
     double normalization() const { return x_.normalization * y_.normalization; }
     /// The filter is nowhere negative.
-    bool isPositive() const { return x_.normalization == 1 && y_.normalization == 1; }
+    bool isPositive() const { return x_.isPositive && y_.isPositive; }
 
 private:
-    static constexpr int kCells = 1024;
-    /// One axis: the inverse of the distribution function of |f|, at kCells + 1 equal steps, linear between.
+    static constexpr int kCells = 4096;
+    /// One axis: the inverse of the distribution function of |f| at kCells + 1 equal steps; inside a cell |f| is taken as linear.
+    /// A cell in which f changes sign is split there, at its exact share of the cell's mass, so that the signs have the right
+    /// probabilities.
     struct Axis {
         float radius = 0.5f;
         double normalization = 1;
+        bool isPositive = true;
         std::vector<float> inverse;
-        std::vector<float> sign;          ///< per cell: -1 where the filter is negative
+        std::vector<float> start;                    ///< per cell: |f| at its start over the sum of |f| at both ends
+        std::vector<float> sign;                     ///< per cell: of f before the split
+        std::vector<float> split, splitPlace;        ///< per cell: share of the mass before the zero (1: none), and the zero
         Axis(const FilterSettings& s, double radius);
 
         template <class F>
         F sample(F u, F& signOut) const {
             const F scaled = u * F(float(kCells));
             const UInt<F> i = toUInt(min(scaled, F(float(kCells - 1))));
-            const F t = scaled - toFloat<F>(i);
-            const F a = gather(inverse.data(), i), b = gather(inverse.data(), i + UInt<F>(1u));
-            signOut = gather(sign.data(), i);
-            return a + (b - a) * t;
+            F t = scaled - toFloat<F>(i);
+            F a = gather(inverse.data(), i), b = gather(inverse.data(), i + UInt<F>(1u));
+            F first = gather(start.data(), i);
+            signOut = F(1.f);
+            if (!isPositive) {
+                const F s = gather(split.data(), i), zero = gather(splitPlace.data(), i);
+                const Mask<F> whole = s == F(1.f), before = t < s;
+                signOut = flipSign(!before, gather(sign.data(), i));
+                t = select(before, t / s, (t - s) / max(F(1.f) - s, F(1e-9f)));
+                a = select(before, a, zero);
+                b = select(before, zero, b);
+                first = select(whole, first, select(before, F(1.f), F(0.f)));
+            }
+            // Where a linear density has the share t of its mass.
+            const F root = sqrt(max(first * first + t * (F(1.f) - F(2.f) * first), F(0.f)));
+            return a + (b - a) * min(t / max(first + root, F(1e-9f)), F(1.f));
         }
     };
     bool isBox_ = false;
