@@ -1,51 +1,36 @@
 // The files that a render leaves: RenderJob::writePicture.
 
+#include "app/batch/recipe.h"
 #include "app/batch/render_job.h"
+#include "core/base/atomic_file.h"
 #include "core/base/error.h"
-#include "core/base/version.h"
+#include "core/base/text.h"
 #include "core/color/display.h"
 #include "core/image/image_io.h"
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 #include <filesystem>
 
 namespace penumbra {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// A device or a pipe, whose name says nothing of the format.
+bool isSpecialFile(const std::string& path) {
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
 bool isExr(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return extension == ".exr";
+    if (imageFileKind(path) != ImageFileKind::Unknown) return false;
+    return extensionOf(path) == "exr" || isSpecialFile(path);
 }
 
 std::size_t pixelNumber(const CropWindow& crop, int x, int row) {
     return std::size_t(row) * std::size_t(crop.width()) + std::size_t(x);
-}
-
-/// Everything that it takes to render the same bits again.
-nlohmann::json recipe(const RenderJob& job) {
-    const Scene& s = job.scene();
-    const RenderOptions& o = job.options();
-    return {
-        {"schema", 1},
-        {"program", std::string("penumbra ") + kVersion},
-        {"command", o.command},
-        {"scene", o.scene},
-        {"samples", {0, s.samplesPerPixel}},
-        {"seed", s.seed},
-        {"replicates", o.replicates},
-        {"sampler", s.sampler.info().name},
-        {"integrator", s.integrator.name},
-        {"maxdepth", s.integrator.maxDepth},
-        {"roulette", rouletteName(s.integrator.roulette)},
-        {"strategy", strategyName(s.integrator.strategy)},
-        {"intersection", o.build.intersection == IntersectionMode::Robust ? "robust" : "fast"},
-        {"embree", Accelerator::libraryVersion()},
-        {"native", kNativeBuild},
-        {"invalid_samples", job.counts().invalid},
-        {"error", o.replicates == 1 ? "independent-sample estimate" : "spread of replicates"},
-    };
 }
 
 void writeExrPicture(const RenderJob& job, const std::string& path) {
@@ -58,7 +43,7 @@ void writeExrPicture(const RenderJob& job, const std::string& path) {
     header.channels = {{"R", Type::Float},    {"G", Type::Float},    {"B", Type::Float},    {"A", Type::Float},
                        {"SE.R", Type::Float}, {"SE.G", Type::Float}, {"SE.B", Type::Float}, {"samples", Type::Uint}};
     header.colorSpace = findColorSpace(settings.colorSpace);
-    header.attributes = {{"penumbra", recipe(job).dump()}, {"samplesPerPixel", job.scene().samplesPerPixel}};
+    header.attributes = {{"penumbra", recipeJson(job)}, {"samplesPerPixel", job.scene().samplesPerPixel}};
     writeExr(path, header, [&](const ExrBlock& block) {
         std::size_t to = 0;
         for (int row = block.firstRow; row < block.firstRow + block.rows; ++row)
@@ -76,28 +61,46 @@ void writeExrPicture(const RenderJob& job, const std::string& path) {
 
 }  // namespace
 
-void RenderJob::writePicture(const std::string& path) const {
-    if (isExr(path)) return writeExrPicture(*this, path);
-    const CropWindow& crop = film_.crop();
+std::string RenderJob::writePicture(const std::string& path) const {
+    if (isExr(path)) {
+        writeExrPicture(*this, path);
+        return "";
+    }
     std::vector<float> rgb;
     rgb.reserve(film_.pixelCount() * 3);
-    for (std::size_t i = 0; i < film_.pixelCount(); ++i) {
-        const PixelEstimate e = film_.estimate(i);
-        for (double v : e.mean) rgb.push_back(float(v));
+    for (std::size_t i = 0; i < film_.pixelCount(); ++i)
+        for (const double v : film_.estimate(i).mean) rgb.push_back(float(v));
+    std::string through;
+    if (imageFileKind(path) == ImageFileKind::DisplayEncoded) {
+        const DisplayTransform display({}, *findColorSpace(scene_.film.colorSpace));
+        display.apply(rgb);
+        through = fmt::format("display {}, view {} of the OpenColorIO configuration {}", quote(display.display()), quote(display.view()),
+                              display.configuration());
     }
-    if (imageFileKind(path) == ImageFileKind::DisplayEncoded)
-        DisplayTransform({}, *findColorSpace(scene_.film.colorSpace)).apply(rgb);
-    writeImage(path, crop.width(), crop.height(), rgb);
+    writeImage(path, film_.crop().width(), film_.crop().height(), rgb);
+    return through;
 }
 
 void checkPicturePath(const std::string& path) {
-    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (path.empty() || fs::is_directory(path, ignored))
+        throw Error(ErrorKind::CannotCreate, quote(path) + ": a picture needs the name of a file");
     if (!isExr(path) && imageFileKind(path) == ImageFileKind::Unknown)
-        throw Error(ErrorKind::Usage, path + ": unknown kind of picture; known: exr, png, jpg, tif, hdr, pfm");
+        throw Error(ErrorKind::Usage, pathText(path) + ": unknown kind of picture; known extensions: exr, png, jpg, tif, hdr, pfm");
     const fs::path folder = fs::path(path).parent_path();
-    std::error_code failed;
-    if (!folder.empty() && !fs::is_directory(folder, failed))
-        throw Error(ErrorKind::CannotCreate, path + ": there is no folder '" + folder.string() + "'");
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
+        throw Error(ErrorKind::CannotCreate, pathText(path) + ": there is no folder " + quote(folder.string(), path.size()));
+    const AtomicFile attempt(path);
+    if (imageFileKind(path) == ImageFileKind::DisplayEncoded) DisplayTransform({}, srgbColorSpace());   // $OCIO may be wrong
+}
+
+void checkKeepsInputs(const std::string& path, const SceneInputs& inputs) {
+    for (const std::vector<std::string>* files : {&inputs.texts, &inputs.assets})
+        for (const std::string& file : *files) {
+            std::error_code different;
+            if (fs::equivalent(path, file, different))
+                throw Error(ErrorKind::CannotCreate, pathText(path) + ": is a file of the scene and is not overwritten");
+        }
 }
 
 }  // namespace penumbra

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <limits>
 #include <mutex>
+#include <numeric>
 
 namespace penumbra {
 namespace {
@@ -16,6 +17,23 @@ namespace {
 double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+/// A tile is rendered this many samples of each pixel at a time, which bounds how long a stop takes.
+constexpr std::uint32_t kSamplesPerCall = 256;
+
+/// Visits 0 .. count-1 in an order whose every stretch is spread over the whole, so that the first per cent of the tiles costs
+/// about what the others cost, and the time left can be told.
+class SpreadOrder {
+public:
+    explicit SpreadOrder(std::uint64_t count) : count_(count), stride_(std::uint64_t(double(count) * kGoldenSection)) {
+        while (std::gcd(stride_, count_) != 1) ++stride_;
+    }
+    std::uint64_t operator[](std::uint64_t i) const { return i * stride_ % count_; }
+
+private:
+    static constexpr double kGoldenSection = 0.6180339887498949;
+    std::uint64_t count_, stride_;
+};
 
 }  // namespace
 
@@ -32,39 +50,60 @@ RenderJob::RenderJob(SceneDescription description, const RenderOptions& options,
 
 void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
     const auto start = std::chrono::steady_clock::now();
+    inputs_ = findSceneInputs(description);
     scene_ = buildScene(std::move(description), options_.build, warnings);
+    if (options_.replicates > scene_.samplesPerPixel)
+        throw Error(ErrorKind::Usage, std::to_string(options_.replicates) + " replicates need at least as many samples per pixel, not " +
+                                          std::to_string(scene_.samplesPerPixel));
     integrator_ = makeIntegrator(scene_.integrator);
     film_ = Film(scene_.film.crop, options_.replicates, scene_.filter.normalization());
+    progress_.samples = film_.pixelCount() * std::uint64_t(scene_.samplesPerPixel);
+    warningCount_ = warnings.all().size();
     times_.build = secondsSince(start);
 }
 
-void RenderJob::run() {
+bool RenderJob::run(const std::atomic<bool>* stop) {
     const auto start = std::chrono::steady_clock::now();
     const CropWindow& crop = film_.crop();
     const int size = options_.tileSize, columns = (crop.width() + size - 1) / size, rows = (crop.height() + size - 1) / size;
-    progress_.tiles = std::uint64_t(columns) * std::uint64_t(rows);
-    progress_.tilesDone = 0;
+    const std::uint64_t tiles = std::uint64_t(columns) * std::uint64_t(rows);
+    const SpreadOrder order(tiles);
+    progress_.samplesDone = 0;
     std::mutex mutex;   // counts are merged once a tile
-    parallelFor(progress_.tiles, [&](std::size_t i) {
-        const int x = int(i % std::size_t(columns)) * size, y = int(i / std::size_t(columns)) * size;
-        const Tile tile{x, y, std::min(x + size, crop.width()), std::min(y + size, crop.height())};
-        RenderCounts counts;
-        integrator_->render(scene_, tile, {0, std::uint32_t(scene_.samplesPerPixel)}, options_.controls, film_, counts);
+    parallelFor(tiles, [&](std::size_t i) {
+        const int x = int(order[i] % std::uint64_t(columns)) * size, y = int(order[i] / std::uint64_t(columns)) * size;
+        const RenderCounts counts = renderTile({x, y, std::min(x + size, crop.width()), std::min(y + size, crop.height())}, stop);
         const std::lock_guard lock(mutex);
         counts_.add(counts);
-        ++progress_.tilesDone;
     });
     times_.render += secondsSince(start);
+    return progress_.samplesDone == progress_.samples;
 }
 
-Spectrum<float> RenderJob::replay(int x, int y, std::uint32_t sample) const {
+RenderCounts RenderJob::renderTile(const Tile& tile, const std::atomic<bool>* stop) {
+    const std::uint64_t pixels = std::uint64_t(tile.x1 - tile.x0) * std::uint64_t(tile.y1 - tile.y0);
+    const auto samples = std::uint32_t(scene_.samplesPerPixel);
+    RenderCounts counts;
+    for (std::uint32_t first = 0; first < samples && !(stop && stop->load(std::memory_order_relaxed));) {
+        const std::uint32_t end = first + std::min(kSamplesPerCall, samples - first);
+        integrator_->render(scene_, tile, {first, end}, options_.controls, film_, counts);
+        progress_.samplesDone.fetch_add(pixels * (end - first), std::memory_order_relaxed);
+        first = end;
+    }
+    return counts;
+}
+
+Spectrum<float> RenderJob::replay(int x, int y, std::uint32_t sample, int lanes) const {
     const CropWindow& crop = film_.crop();
     if (x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1)
         throw Error(ErrorKind::Usage, "pixel " + std::to_string(x) + "," + std::to_string(y) + " is outside the picture (" +
                                           std::to_string(crop.x0) + "," + std::to_string(crop.y0) + " to " + std::to_string(crop.x1 - 1) +
                                           "," + std::to_string(crop.y1 - 1) + ")");
+    if (sample >= std::uint32_t(scene_.samplesPerPixel))
+        throw Error(ErrorKind::Usage, "sample " + std::to_string(sample) + " is not rendered: a pixel has the samples 0 to " +
+                                          std::to_string(scene_.samplesPerPixel - 1));
     RenderControls alone = options_.controls;
-    alone.lanes = 1;
+    alone.lanes = lanes;
     Film film(CropWindow{x, y, x + 1, y + 1}, options_.replicates, 1.0);
     RenderCounts counts;
     integrator_->render(scene_, {0, 0, 1, 1}, {sample, sample + 1}, alone, film, counts);

@@ -6,11 +6,12 @@
 //     job.run();
 //     job.writePicture("picture.exr");
 //
-// The picture is a function of the scene and the options that change it (BuildOptions, samples): threads, tiles, lanes and
+// The picture is a function of the scene and the options that change it (BuildOptions, replicates): threads, tiles, lanes and
 // batches change no bit. Errors: Error, as the parts throw it. Thread safety: one job belongs to one thread, but progress()
 // may be read from any.
 #pragma once
 
+#include "app/batch/scene_inputs.h"
 #include "core/base/warnings.h"
 #include "core/film/film.h"
 #include "integrators/integrator.h"
@@ -27,12 +28,11 @@ struct RenderOptions {
     int replicates = 1;               ///< planes of the film
     int tileSize = 16;                ///< pixels; changes no bit
     RenderControls controls;
-    std::string command;              ///< what the user typed, for the header of the picture
 };
 
 struct RenderProgress {
-    std::atomic<std::uint64_t> tilesDone{0};
-    std::uint64_t tiles = 0;
+    std::atomic<std::uint64_t> samplesDone{0};
+    std::uint64_t samples = 0;        ///< of all pixels
 };
 
 struct RenderTimes {
@@ -45,35 +45,47 @@ public:
     /// A description made elsewhere (tests, tools) in the place of a file.
     RenderJob(SceneDescription description, const RenderOptions& options, Warnings& warnings);
 
-    /// Renders all samples of all pixels.
-    void run();
-    /// One sample of one pixel of the whole picture, alone and in scalar, as run() would make it. Error(Usage) outside the crop window.
-    Spectrum<float> replay(int x, int y, std::uint32_t sample) const;
+    /// Renders all samples of all pixels. Where `stop` becomes true it returns false within a fraction of a second, and the
+    /// film then holds some of the samples only.
+    bool run(const std::atomic<bool>* stop = nullptr);
+    /// One sample of one pixel of the whole picture, alone, as the film holds it; `lanes` as in RenderControls. NaN where the
+    /// sample is invalid. Error(Usage) outside the crop window or beyond the samples per pixel.
+    Spectrum<float> replay(int x, int y, std::uint32_t sample, int lanes = 1) const;
 
     const Scene& scene() const { return scene_; }
+    const SceneInputs& inputs() const { return inputs_; }
     const Film& film() const { return film_; }
     const RenderCounts& counts() const { return counts_; }
     const RenderTimes& times() const { return times_; }
     const RenderProgress& progress() const { return progress_; }
     const RenderOptions& options() const { return options_; }
+    std::size_t warningCount() const { return warningCount_; }   ///< of reading and building the scene
 
     /// By extension: .exr with the error and the header that repeats the picture; .png .jpg .tif ... through the default display
-    /// transform; .hdr .pfm linear.
-    void writePicture(const std::string& path) const;
+    /// transform; .hdr .pfm linear. What is there and is no regular file (a device, a pipe) gets an EXR.
+    /// Returns which display transform it went through; empty where through none.
+    std::string writePicture(const std::string& path) const;
 
 private:
     void prepare(SceneDescription description, Warnings& warnings);
+    RenderCounts renderTile(const Tile& tile, const std::atomic<bool>* stop);
 
     RenderOptions options_;
     Scene scene_;
+    SceneInputs inputs_;
     Film film_;
     std::unique_ptr<Integrator> integrator_;
     RenderCounts counts_;
     RenderTimes times_;
     RenderProgress progress_;
+    std::size_t warningCount_ = 0;
 };
 
-/// Error(Usage) where the extension of an output path is unknown or its folder does not exist: asked before a long render.
+/// Throws what writing a picture there would: asked before a long render. Usage: unknown extension; CannotCreate: no such
+/// folder, a folder of that name, no permission. What stands there stays as it is.
 void checkPicturePath(const std::string& path);
+
+/// Error(CannotCreate) where the path is one of the scene's own files, under whatever name.
+void checkKeepsInputs(const std::string& path, const SceneInputs& inputs);
 
 }  // namespace penumbra

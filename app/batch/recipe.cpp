@@ -1,0 +1,93 @@
+#include "app/batch/recipe.h"
+
+#include "core/base/version.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace penumbra {
+namespace {
+
+/// As a shell reads it back.
+std::string shellQuoted(const std::string& word) {
+    constexpr std::string_view kPlain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+:=,@%";
+    if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
+const char* lightSamplingName(bool classicArea) { return classicArea ? "area" : "solid-angle"; }
+const char* intersectionName(IntersectionMode mode) { return mode == IntersectionMode::Robust ? "robust" : "fast"; }
+
+}  // namespace
+
+const char* lightSelectionName(LightSelection selection) {
+    return selection == LightSelection::Uniform ? "uniform" : "power";
+}
+
+std::string repeatCommand(const RenderOptions& options) {
+    const BuildOptions& b = options.build;
+    std::string command = "penumbra render " + shellQuoted(options.scene);
+    const auto add = [&](const char* option, const auto& value) { command += fmt::format(" {} {}", option, value); };
+    if (b.samplesOverride > 0) add("--spp", b.samplesOverride);
+    if (b.width > 0) add("--resolution", fmt::format("{}x{}", b.width, b.height));
+    if (b.seed) add("--seed", *b.seed);
+    if (!b.sampler.empty()) add("--sampler", b.sampler);
+    if (!b.integrator.empty()) add("--integrator", b.integrator);
+    if (b.maxDepth) add("--maxdepth", *b.maxDepth);
+    if (b.roulette) add("--roulette", rouletteName(*b.roulette));
+    if (b.strategy) add("--strategy", strategyName(*b.strategy));
+    if (b.lightSelection) add("--light-selection", lightSelectionName(*b.lightSelection));
+    if (b.classicArea) add("--light-sampling", lightSamplingName(true));
+    if (b.intersection != IntersectionMode::Robust) add("--intersection", intersectionName(b.intersection));
+    if (options.replicates != 1) add("--replicates", options.replicates);
+    return command;
+}
+
+std::string replayCommand(const RenderJob& job, InvalidSample sample) {
+    const CropWindow& crop = job.film().crop();
+    const int width = crop.width(), pixel = int(sample.pixel);
+    return fmt::format("{} --pixel {},{} --sample {}", repeatCommand(job.options()), crop.x0 + pixel % width, crop.y0 + pixel / width,
+                       sample.sample);
+}
+
+std::string recipeJson(const RenderJob& job) {
+    const Scene& s = job.scene();
+    const RenderOptions& o = job.options();
+    const IntegratorSettings& i = s.integrator;
+    const CropWindow& crop = job.film().crop();
+    const nlohmann::ordered_json recipe = {
+        {"schema", 1},
+        {"program", std::string("penumbra ") + kVersion},
+        {"command", repeatCommand(o)},
+        {"scene", o.scene},
+        {"scene_sha256", job.inputs().hash},
+        {"resolution", {s.film.width, s.film.height}},
+        {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
+        {"samples", {0, s.samplesPerPixel}},
+        {"seed", s.seed},
+        {"replicates", o.replicates},
+        {"sampler", s.sampler.info().name},
+        {"integrator", i.name},
+        {"maxdepth", i.maxDepth},
+        {"roulette", rouletteName(i.roulette)},
+        {"strategy", strategyName(i.strategy)},
+        {"light_selection", lightSelectionName(i.lightSelection)},
+        {"light_sampling", lightSamplingName(o.build.classicArea)},
+        {"intersection", intersectionName(o.build.intersection)},
+        {"color_space", s.film.colorSpace},
+        {"embree", Accelerator::libraryVersion()},
+        {"native", kNativeBuild},
+        {"warnings", job.warningCount()},
+        {"invalid_samples", job.counts().invalid},
+        {"error", o.replicates == 1 ? "independent-sample estimate" : "spread of replicates"},
+    };
+    // A file name need not be UTF-8.
+    return recipe.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace penumbra

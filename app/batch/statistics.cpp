@@ -1,0 +1,131 @@
+#include "app/batch/statistics.h"
+
+#include "app/batch/recipe.h"
+#include "core/base/parallel.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace penumbra {
+namespace {
+
+double perSecond(std::uint64_t count, double seconds) { return seconds > 0 ? double(count) / seconds : 0; }
+
+/// Three significant digits, and the largest prefix that leaves at least 1 before the point.
+std::string scaledText(double value, double base, std::initializer_list<const char*> units) {
+    auto unit = units.begin();
+    while (value >= base && unit + 1 != units.end()) {
+        value /= base;
+        ++unit;
+    }
+    const int decimals = unit == units.begin() || value >= 100 ? 0 : value >= 10 ? 1 : 2;
+    return fmt::format("{:.{}f}{}", value, decimals, *unit);
+}
+
+std::string line(std::string_view name, const std::string& value) { return fmt::format("  {:<18} {}\n", name, value); }
+
+}  // namespace
+
+PictureError pictureError(const Film& film) {
+    PictureError result;
+    double sum = 0, squares = 0;
+    std::uint64_t known = 0;
+    for (std::size_t i = 0; i < film.pixelCount(); ++i) {
+        const PixelEstimate e = film.estimate(i);
+        bool allKnown = true;
+        for (std::size_t c = 0; c < 3; ++c) {
+            sum += e.mean[c];
+            if (!std::isfinite(e.standardError[c])) {
+                allKnown = false;
+                continue;
+            }
+            squares += e.standardError[c] * e.standardError[c];
+            ++known;
+        }
+        result.unknownPixels += !allKnown;
+    }
+    const double mean = film.pixelCount() ? sum / double(3 * film.pixelCount()) : 0;
+    if (known) result.rootMeanSquare = std::sqrt(squares / double(known));
+    if (mean > 0) result.relative = result.rootMeanSquare / mean;
+    return result;
+}
+
+RenderStatistics statisticsOf(const RenderJob& job) {
+    const RenderCounts& c = job.counts();
+    const Scene& scene = job.scene();
+    RenderStatistics s;
+    s.times = job.times();
+    s.threads = ThreadLimit::current();
+    s.counts = c;
+    s.samplesPerSecond = perSecond(c.paths, s.times.render);
+    s.raysPerSecond = perSecond(c.rays + c.shadowRays, s.times.render);
+    s.meanLiveLanes = c.groups ? double(c.liveLanes) / double(c.groups) : 0;
+    s.filmBytes = job.film().memoryBytes();
+    s.geometryBytes = scene.geometry.memoryBytes();
+    s.textureBytes = scene.textures.bytes();
+    s.peakMemoryBytes = peakMemoryBytes();
+    s.error = pictureError(job.film());
+    return s;
+}
+
+std::string statisticsText(const RenderStatistics& s) {
+    std::string text = "statistics\n";
+    text += line("parse", fmt::format("{:.3f} s", s.times.parse));
+    text += line("build", fmt::format("{:.3f} s", s.times.build));
+    text += line("render", fmt::format("{:.3f} s on {} thread{}", s.times.render, s.threads, s.threads == 1 ? "" : "s"));
+    text += line("samples", fmt::format("{} ({}/s)", countText(double(s.counts.paths)), countText(s.samplesPerSecond)));
+    text += line("rays", fmt::format("{} ({}/s): {} to surfaces, {} to lights", countText(double(s.counts.rays + s.counts.shadowRays)),
+                                     countText(s.raysPerSecond), countText(double(s.counts.rays)), countText(double(s.counts.shadowRays))));
+    text += line("live lanes", fmt::format("{:.2f} in a shading call", s.meanLiveLanes));
+    text += line("memory", fmt::format("film {}, geometry {}, textures {}; process {} at its peak", bytesText(double(s.filmBytes)),
+                                       bytesText(double(s.geometryBytes)), bytesText(double(s.textureBytes)),
+                                       bytesText(double(s.peakMemoryBytes))));
+    text += line("invalid samples", std::to_string(s.counts.invalid));
+    std::string error = fmt::format("{:.3g} ({:.3g} % of the mean)", s.error.rootMeanSquare, 100 * s.error.relative);
+    if (s.error.unknownPixels) error += fmt::format("; unknown in {} pixels", s.error.unknownPixels);
+    text += line("standard error", error);
+    return text;
+}
+
+std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
+    const nlohmann::ordered_json json = {
+        {"schema", 1},
+        {"recipe", nlohmann::ordered_json::parse(recipeJson(job))},
+        {"seconds", {{"parse", s.times.parse}, {"build", s.times.build}, {"render", s.times.render}}},
+        {"threads", s.threads},
+        {"samples", s.counts.paths},
+        {"samples_per_second", s.samplesPerSecond},
+        {"rays", s.counts.rays},
+        {"shadow_rays", s.counts.shadowRays},
+        {"rays_per_second", s.raysPerSecond},
+        {"mean_live_lanes", s.meanLiveLanes},
+        {"bytes",
+         {{"film", s.filmBytes}, {"geometry", s.geometryBytes}, {"textures", s.textureBytes}, {"peak_rss", s.peakMemoryBytes}}},
+        {"invalid_samples", s.counts.invalid},
+        {"standard_error",
+         {{"rms", s.error.rootMeanSquare}, {"relative", s.error.relative}, {"unknown_pixels", s.error.unknownPixels}}},
+    };
+    return json.dump();
+}
+
+std::string bytesText(double bytes) { return scaledText(bytes, 1024, {" B", " KiB", " MiB", " GiB", " TiB"}); }
+std::string countText(double count) { return scaledText(count, 1000, {"", " k", " M", " G", " T"}); }
+
+std::uint64_t peakMemoryBytes() {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return std::uint64_t(usage.ru_maxrss) * 1024;
+}
+
+std::uint64_t presentMemoryBytes() {
+    std::uint64_t pages = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> pages >> resident;
+    return resident * std::uint64_t(::sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace penumbra
