@@ -34,6 +34,24 @@ Mask<F> hasFlag(UInt<F> flags, std::uint32_t flag) {
     return (flags & UInt<F>(flag)) != UInt<F>(0u);
 }
 
+/// Flux of a surface that emits the same radiance everywhere.
+inline float diffusePower(float radiance, float area, std::uint32_t flags) {
+    return kPi * radiance * area * ((flags & kLightTwoSided) ? 2.f : 1.f);
+}
+
+/// Whether a flat light shines on a point. `z` is the light's offset from the point along the normal, negative in front.
+template <class F>
+Mask<F> emitsTowards(F z, UInt<F> flags) {
+    return (z < F(0.f)) | (hasFlag<F>(flags, kLightTwoSided) & (z > F(0.f)));
+}
+
+/// The plane that two edges span: computed in double, because corners far from the origin leave few digits to the edges.
+struct SpannedPlane {
+    Vec3<float> normal;     ///< unit, on the side of `facing`
+    float area;             ///< of the parallelogram
+};
+SpannedPlane spannedPlane(const Vec3<float>& edgeX, const Vec3<float>& edgeY, const Vec3<float>& facing);
+
 /// Below this solid angle a planar light is sampled by area: it looks the same size from everywhere on it, and single
 /// precision would no longer resolve positions inside it.
 inline constexpr float kSmallestSolidAngle = 1e-4f;

@@ -49,12 +49,12 @@ LightSample<F> select(const Mask<F>& m, const LightSample<F>& a, const LightSamp
             select(m, a.delta, b.delta), select(m, a.valid, b.valid)};
 }
 
-/// What a ray that met a light knows. For infinite lights only `wi` matters.
+/// What a ray that met a light knows. For infinite lights only `wi` matters. A light knows its own orientation, so that both
+/// strategies agree on the side that emits.
 template <class F>
 struct LightHit {
     Vec3<F> from;        ///< the shading point that the ray left
     Vec3<F> p;           ///< the point met
-    Vec3<F> n;           ///< unit geometric normal there, on the side that the shape's orientation says is outside
     Vec3<F> wi;          ///< unit direction of the ray (from -> p)
 };
 

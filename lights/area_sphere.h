@@ -1,0 +1,170 @@
+// SphereLight: a diffuse area light on a sphere, an ellipsoid (a sphere under any affine map) or a part of one.
+//
+// All work is done in object space, where the sphere has radius 1 and its centre at the origin; a direction w there becomes
+// M w in the world, and densities per solid angle change by |M w|^3 / |det M|. So scaled spheres are sampled rightly too.
+//   - The whole sphere from outside: uniform in the cone that it subtends. With 1 - cos = part * (1 - cosMax) nothing
+//     cancels for small angles (1 - cosMax = 1 / (d^2 (1 + cosMax))), nor near the surface (cosMax^2 = (d - 1)(d + 1) / d^2).
+//   - The whole sphere from inside (it emits there if two-sided or reversed): uniform directions.
+//   - A part (zmin, zmax, phimax), whose inside may be seen through the opening, or with classicArea: uniform in the area of
+//     the unit sphere's part.
+//
+// Invariants: toWorld has the columns of M, toObject the rows of its inverse; |det M| inverseScale^3 = 1.
+#pragma once
+
+#include "core/math/matrix.h"
+#include "core/math/warps.h"
+#include "lights/area_light.h"
+
+namespace penumbra {
+
+struct SphereLight {
+    static constexpr const PluginInfo& kInfo = kDiffuseAreaInfo;
+    static constexpr bool kInfinite = false;
+    static constexpr bool kDelta = false;
+
+    Vec3<float> center;
+    Vec3<float> toWorldX, toWorldY, toWorldZ;
+    Vec3<float> toObjectX, toObjectY, toObjectZ;
+    float inverseScale;
+    float zMin, zMax, phiMax;       ///< of the unit sphere; -1, 1, 2 pi where it is whole
+    float area;                     ///< in the world
+    Spectrum<float> radiance;
+    std::uint32_t flags;            ///< kLightReversed: the outside (the side that emits) is towards the centre
+    std::uint32_t whole;            ///< 1 or 0
+
+    /// The sphere of `radius` about the origin of object space, cut to zMin <= z <= zMax (in its units) and angles up to
+    /// phiMax. False where the matrix is singular or not finite; `light` is then untouched.
+    static bool make(const Matrix4& worldFromObject, double radius, double zMin, double zMax, double phiMax,
+                     const Spectrum<float>& radiance, std::uint32_t flags, SphereLight& light);
+
+    float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
+
+    template <class F>
+    static LightSample<F> sample(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p,
+                                 const Vec2<F>& u);
+    template <class F>
+    static LightEval<F> evaluate(const Records<F, SphereLight>& light, const LightTables& tables, const LightHit<F>& hit);
+};
+
+namespace detail {
+
+/// The unit sphere as seen from a point of its object space.
+template <class F>
+struct SphereView {
+    Vec3<F> o;               ///< the point
+    F d;                     ///< its distance from the centre
+    F excess;                ///< d^2 - 1
+    Mask<F> inside;
+    Mask<F> byArea;          ///< the light is sampled by area
+    Mask<F> outwards, inwards;   ///< emits to the outside, the inside of the sphere (not of its orientation)
+
+    SphereView(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p) {
+        o = toObject(light, p - light(&SphereLight::center));
+        d = length(o);
+        excess = (d - F(1.f)) * (d + F(1.f));
+        inside = d < F(1.f);
+        byArea = (light(&SphereLight::whole) == UInt<F>(0u)) | Mask<F>(tables.classicArea);
+        const UInt<F> flags = light(&SphereLight::flags);
+        const Mask<F> twoSided = hasFlag<F>(flags, kLightTwoSided), reversed = hasFlag<F>(flags, kLightReversed);
+        outwards = select(reversed, twoSided, Mask<F>(true));
+        inwards = twoSided | reversed;
+    }
+    static Vec3<F> toObject(const Records<F, SphereLight>& light, const Vec3<F>& v) {
+        return {dot(light(&SphereLight::toObjectX), v), dot(light(&SphereLight::toObjectY), v),
+                dot(light(&SphereLight::toObjectZ), v)};
+    }
+
+    /// 1 - cosine of the cone's half angle.
+    F coneVersine() const { return F(1.f) / (d * d + d * sqrt(max(excess, F(0.f)))); }
+    F pdfDirection() const { return select(inside, F(kInvFourPi), F(kInvTwoPi) / coneVersine()); }
+    /// `q` is a point of the sphere.
+    F pdfArea(const Records<F, SphereLight>& light, const Vec3<F>& q) const {
+        const F partArea = (light(&SphereLight::zMax) - light(&SphereLight::zMin)) * light(&SphereLight::phiMax);
+        const Vec3<F> v = q - o;
+        const F distance = length(v);
+        return distance * distance * distance / (abs(dot(q, v)) * partArea);
+    }
+    /// Whether the sphere's point q shines on the point.
+    Mask<F> lit(const Vec3<F>& q) const {
+        const Mask<F> behind = select(byArea, dot(q, q - o) >= F(0.f), inside);
+        return select(behind, inwards, outwards);
+    }
+
+    Vec3<F> samplePoint(const Records<F, SphereLight>& light, const Vec2<F>& u) const;
+    /// Unit direction and, by reference, the distance to the point met.
+    Vec3<F> sampleDirection(const Vec2<F>& u, F& distance) const;
+};
+
+template <class F>
+Vec3<F> SphereView<F>::samplePoint(const Records<F, SphereLight>& light, const Vec2<F>& u) const {
+    const F z = lerp(u.x, light(&SphereLight::zMin), light(&SphereLight::zMax));
+    const F r = sqrt(max((F(1.f) - z) * (F(1.f) + z), F(0.f)));
+    F s, c;
+    sinCos(light(&SphereLight::phiMax) * u.y, s, c);
+    return {r * c, r * s, z};
+}
+
+template <class F>
+Vec3<F> SphereView<F>::sampleDirection(const Vec2<F>& u, F& distance) const {
+    // Outside: the concentric map of the disk to the cone, r^2 = (1 - cos) / (1 - cosMax).
+    const Vec2<F> q = concentricDisk(u);
+    const F coneMax = coneVersine();
+    const F versine = (q.x * q.x + q.y * q.y) * coneMax;
+    const F spread = safeSqrt(coneMax * (F(2.f) - versine));
+    const Frame<F> frame = Frame<F>::fromNormal(o * (F(-1.f) / d));
+    const F cosine = F(1.f) - versine;
+    const Vec3<F> inCone = frame.toWorld({q.x * spread, q.y * spread, cosine});
+    const F sine2 = versine * (F(2.f) - versine);
+    const F near = excess / (d * cosine + safeSqrt(F(1.f) - d * d * sine2));
+    if (none(inside)) {
+        distance = near;
+        return inCone;
+    }
+    const Vec3<F> anywhere = uniformSphere(u);
+    const F b = dot(o, anywhere), root = sqrt(max(b * b - excess, F(0.f)));
+    distance = select(inside, select(b > F(0.f), -excess / (b + root), root - b), near);
+    return select(inside, anywhere, inCone);
+}
+
+}  // namespace detail
+
+template <class F>
+LightSample<F> SphereLight::sample(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p,
+                                   const Vec2<F>& u) {
+    const detail::SphereView<F> view(light, tables, p);
+    Vec3<F> direction = {F(0.f), F(0.f), F(1.f)};
+    F distance = F(0.f), pdf = F(0.f);
+    Mask<F> valid = Mask<F>(true);
+    if (!all(view.byArea)) {
+        direction = view.sampleDirection(u, distance);
+        pdf = view.pdfDirection();
+        valid = select(view.inside, view.inwards, view.outwards);
+    }
+    if (any(view.byArea)) {
+        const Vec3<F> q = view.samplePoint(light, u), v = q - view.o;
+        const F far = length(v);
+        direction = select(view.byArea, v * (F(1.f) / far), direction);
+        distance = select(view.byArea, far, distance);
+        pdf = select(view.byArea, view.pdfArea(light, q), pdf);
+        valid = select(view.byArea, view.lit(q), valid);
+    }
+    const Vec3<F> w = light(&SphereLight::toWorldX) * direction.x + light(&SphereLight::toWorldY) * direction.y +
+                      light(&SphereLight::toWorldZ) * direction.z;
+    const F stretch = length(w), relative = stretch * light(&SphereLight::inverseScale);
+    pdf = pdf * (relative * relative * relative);
+    return lightSample(valid & isFinite(pdf), w * (F(1.f) / stretch), distance * stretch, light(&SphereLight::radiance), pdf,
+                       hasFlag<F>(light(&SphereLight::flags), kLightUnmet));
+}
+
+template <class F>
+LightEval<F> SphereLight::evaluate(const Records<F, SphereLight>& light, const LightTables& tables, const LightHit<F>& hit) {
+    const detail::SphereView<F> view(light, tables, hit.from);
+    const Vec3<F> q = view.toObject(light, hit.p - light(&SphereLight::center));
+    F pdf = select(view.byArea, view.pdfArea(light, q), view.pdfDirection());
+    // The unit direction w of the world is M^-1 w in object space, so the unit direction there is stretched by 1 / |M^-1 w|.
+    const F relative = light(&SphereLight::inverseScale) / length(view.toObject(light, hit.wi));
+    pdf = pdf * (relative * relative * relative);
+    return lightEval(view.lit(q) & isFinite(pdf), light(&SphereLight::radiance), pdf);
+}
+
+}  // namespace penumbra

@@ -1,0 +1,86 @@
+#include "lights/infinite_image.h"
+
+#include "core/base/error.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace penumbra {
+namespace {
+
+/// The columns of the matrix, made orthonormal in order (Gram-Schmidt).
+std::array<Vec3<float>, 3> orthonormalAxes(const Matrix4& m) {
+    std::array<Vec3<float>, 3> axes;
+    std::array<std::array<double, 3>, 3> done{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::array<double, 3> v = {m.m[0][c], m.m[1][c], m.m[2][c]};
+        const double before = std::hypot(v[0], v[1], v[2]);
+        for (std::size_t k = 0; k < c; ++k) {
+            const double along = v[0] * done[k][0] + v[1] * done[k][1] + v[2] * done[k][2];
+            for (std::size_t i = 0; i < 3; ++i) v[i] -= along * done[k][i];
+        }
+        const double size = std::hypot(v[0], v[1], v[2]);
+        if (!(size > 1e-9 * before)) throw Error(ErrorKind::BadData, "the matrix of an infinite light is singular");
+        for (std::size_t i = 0; i < 3; ++i) done[c][i] = v[i] / size;
+        axes[c] = {float(done[c][0]), float(done[c][1]), float(done[c][2])};
+    }
+    return axes;
+}
+
+float usable(float x) { return std::isfinite(x) && x > 0.f ? x : 0.f; }
+
+}  // namespace
+
+ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::size_t resolution, const Spectrum<float>& scale,
+                                            const Matrix4& worldFromLight, LightTables& tables) {
+    const std::size_t count = resolution * resolution;
+    const std::size_t needed = 4 * count + (resolution + 1) * (resolution + 1);
+    if (resolution == 0 || resolution > kMaxResolution ||
+        tables.numbers.size() + needed > std::size_t(std::numeric_limits<std::int32_t>::max()))
+        throw Error(ErrorKind::BadData, "the images of the infinite lights are too large");
+
+    ImageInfiniteLight light;
+    const std::array<Vec3<float>, 3> axes = orthonormalAxes(worldFromLight);
+    light.axisX = axes[0];
+    light.axisY = axes[1];
+    light.axisZ = axes[2];
+    light.resolution = std::uint32_t(resolution);
+    light.stride = searchStride(resolution);
+    light.pixels = std::uint32_t(tables.numbers.size());
+    tables.numbers.resize(tables.numbers.size() + 4 * count);
+    float* const rows = tables.numbers.data() + light.pixels;
+    std::vector<float> weights(count);
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        float* const row = rows + 4 * i;
+        row[0] = usable(rgb[3 * i] * scale.r);
+        row[1] = usable(rgb[3 * i + 1] * scale.g);
+        row[2] = usable(rgb[3 * i + 2] * scale.b);
+        weights[i] = average(Spectrum<float>{row[0], row[1], row[2]});
+        sum += weights[i];
+    }
+    light.mean = float(sum / double(count));
+    light.distribution = std::uint32_t(tables.numbers.size());
+    appendCumulativeGrid(weights, resolution, resolution, tables.numbers);
+    light.fillDensities(weights, tables);
+    return light;
+}
+
+void ImageInfiniteLight::fillDensities(std::span<const float> weights, LightTables& tables) const {
+    const float* const table = tables.numbers.data() + distribution;
+    const double perPixel = double(resolution) * resolution / (4 * std::numbers::pi);
+    for (std::uint32_t y = 0; y < resolution; ++y) {
+        const float* const row = table + (resolution + 1) * (1 + std::size_t(y));
+        const double rowProbability = double(table[y + 1]) - table[y];
+        for (std::uint32_t x = 0; x < resolution; ++x) {
+            const std::size_t i = std::size_t(y) * resolution + x;
+            // An all-black image has a uniform table, but nothing to sample.
+            const double probability = weights[i] > 0 ? rowProbability * (double(row[x + 1]) - row[x]) : 0;
+            tables.numbers[pixels + 4 * i + 3] = float(probability * perPixel);
+        }
+    }
+}
+
+}  // namespace penumbra
