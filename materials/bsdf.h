@@ -1,16 +1,16 @@
 // What a BSDF is to an integrator, over lanes.
 //
 // Conventions: directions are unit vectors in the local frame, z = shading normal, x = tangent; wo and wi both point
-// away from the surface; evaluate() includes |cos wi|; densities are per solid angle. A BSDF is a flat value ("closure")
-// built once per hit with every texture already looked up; it never sees a sampler, it receives numbers in [0,1).
-// Radiance is transported: transmission from medium i to medium t scales by (n_i / n_t)^2.
+// away from the surface; evaluate() includes |cos wi|; densities are per solid angle. A BSDF is a flat value
+// ("closure") built once per hit with every texture already looked up; it never sees a sampler, it receives numbers in
+// [0,1). Radiance is transported: transmission from medium i to medium t scales by (n_i / n_t)^2.
 //
 // A material type is a plain struct of 32-bit words (one row of a table, read through Records) with
 //   static constexpr PluginInfo kInfo;
-//   static constexpr bool kPassThrough;          // true: a mere border of media, which rays cross as if it were not there
-//   template <class F> using Bsdf = ...;         // the closure it builds
-//   static M make(MaterialInput&);               // from parameters, at scene build (cold)
-//   template <class F> static Bsdf<F> bsdf(const Records<F, M>&, const ShadingContext<F>&);
+//   static constexpr bool kPassThrough;          // true: a mere border of media, which rays cross as if it were not
+//   there template <class F> using Bsdf = ...;         // the closure it builds static M make(MaterialInput&); // from
+//   parameters, at scene build (cold) template <class F> static Bsdf<F> bsdf(const Records<F, M>&, const
+//   ShadingContext<F>&);
 // and a closure has
 //   BsdfEval<F> evaluate(const Vec3<F>& wo, const Vec3<F>& wi) const;   // delta lobes give 0
 //   BsdfSample<F> sample(const Vec3<F>& wo, F uLobe, const Vec2<F>& u) const;
@@ -29,18 +29,18 @@ namespace penumbra {
 
 template <class F>
 struct BsdfEval {
-    Spectrum<F> fCos;        ///< f(wo, wi) |cos wi|
-    F pdf;                   ///< density with which sample() chooses wi (its non-delta lobes)
+    Spectrum<F> fCos;  ///< f(wo, wi) |cos wi|
+    F pdf;             ///< density with which sample() chooses wi (its non-delta lobes)
 };
 
 template <class F>
 struct BsdfSample {
     Vec3<F> wi;
-    Spectrum<F> weight;      ///< f |cos wi| / pdf
-    F pdf;                   ///< per solid angle; for a delta lobe the probability of the lobe (any positive number)
-    F eta;                   ///< relative index crossed: index on wi's side over index on wo's side; 1 for reflection
-    Mask<F> delta;           ///< a delta lobe was chosen
-    Mask<F> valid;           ///< false: absorbed
+    Spectrum<F> weight;  ///< f |cos wi| / pdf
+    F pdf;               ///< per solid angle; for a delta lobe the probability of the lobe (any positive number)
+    F eta;               ///< relative index crossed: index on wi's side over index on wo's side; 1 for reflection
+    Mask<F> delta;       ///< a delta lobe was chosen
+    Mask<F> valid;       ///< false: absorbed
 };
 
 }  // namespace penumbra

@@ -1,5 +1,5 @@
-// Quadrature of rough and smooth coats. Directions average over the normals visible from them, by the very sampling that
-// renders: u.x is the azimuth of the cap (periodic: equal steps), u.y its height (Gauss-Legendre).
+// Quadrature of rough and smooth coats. Directions average over the normals visible from them, by the very sampling
+// that renders: u.x is the azimuth of the cap (periodic: equal steps), u.y its height (Gauss-Legendre).
 #include "materials/coat_table.h"
 
 #include "materials/fresnel.h"
@@ -71,7 +71,8 @@ double innerReflection(const Coat& coat, const Ggx<float>& ggx, const Vec3<float
         const F c = clamp(dot(from, m), F(0.f), F(1.f));
         const Vec3<F> back = m * (F(2.f) * c) - from;
         const F path = F(1.f) / max(from.z, F(1e-6f)) + F(1.f) / max(back.z, F(1e-6f));
-        const F value = dielectricFresnel(c, inverseEta).reflectance * wide.shadowing(from, back) * exp(-thickness * path);
+        const F value =
+            dielectricFresnel(c, inverseEta).reflectance * wide.shadowing(from, back) * exp(-thickness * path);
         sum += weight * sumOfLanes(select(back.z > F(0.f), value, F(0.f)));
     });
     return sum;
@@ -80,7 +81,8 @@ double innerReflection(const Coat& coat, const Ggx<float>& ggx, const Vec3<float
 /// (mu, phi) -> unit vector; phi by its sin^2.
 Vec3<float> direction(double cosTheta, double sinSquaredPhi) {
     const double sinTheta = std::sqrt(std::max(0.0, 1 - cosTheta * cosTheta));
-    return {float(sinTheta * std::sqrt(1 - sinSquaredPhi)), float(sinTheta * std::sqrt(sinSquaredPhi)), float(cosTheta)};
+    return {float(sinTheta * std::sqrt(1 - sinSquaredPhi)), float(sinTheta * std::sqrt(sinSquaredPhi)),
+            float(cosTheta)};
 }
 
 /// rho and tau.

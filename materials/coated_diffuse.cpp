@@ -15,8 +15,8 @@ float readOpticalThickness(MaterialInput& input) {
     if (!(thickness.constant >= 0.f)) input.fail("thickness must not be negative");
 
     const SpectrumInput albedo = input.albedo("albedo", {0.f, 0.f, 0.f});
-    input.scalar("g", 0.f);                          // known, and without meaning where nothing scatters
-    input.parameters().integer("nsamples", 1);       // known: there is nothing to average
+    input.scalar("g", 0.f);                     // known, and without meaning where nothing scatters
+    input.parameters().integer("nsamples", 1);  // known: there is nothing to average
     const bool scatters = albedo.texture != kNoTexture || maxComponent(albedo.constant) > 0.f;
     if (scatters) input.warn("scattering in the gap of a coat is not simulated; it only lessens the gap's absorption");
     const float scattered = albedo.texture == kNoTexture ? std::min(average(albedo.constant), 1.f) : 0.f;
@@ -43,7 +43,8 @@ CoatedDiffuseMaterial CoatedDiffuseMaterial::make(MaterialInput& input) {
         return m;
     }
     const bool remap = m.remapRoughness != 0;
-    const SurfaceRoughness<float> rough = surface(alpha(m.uRoughness.constant, remap), alpha(m.vRoughness.constant, remap));
+    const SurfaceRoughness<float> rough =
+        surface(alpha(m.uRoughness.constant, remap), alpha(m.vRoughness.constant, remap));
     if (rough.smooth) {
         m.table = input.tables().block({Smooth, coat.eta, coat.opticalThickness},
                                        [&](std::vector<float>& numbers) { appendSmoothCoat(coat, numbers); });

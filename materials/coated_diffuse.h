@@ -1,16 +1,17 @@
 // "coateddiffuse": a dielectric coat, smooth or rough (GGX), over a Lambertian base; alike from both sides.
 //
-// The scene format defines this material as the expected value of a random walk between coat and base, whose gap absorbs
-// (optical thickness `thickness` for a perpendicular crossing) and which ends after `maxdepth` events, so that light meets
-// the base at most K = ceil(maxdepth / 2) times. Because the base forgets directions that expectation is a product, with
-// the T, rho and tau of coat_table.h:
+// The scene format defines this material as the expected value of a random walk between coat and base, whose gap
+// absorbs (optical thickness `thickness` for a perpendicular crossing) and which ends after `maxdepth` events, so that
+// light meets the base at most K = ceil(maxdepth / 2) times. Because the base forgets directions that expectation is a
+// product, with the T, rho and tau of coat_table.h:
 //   f(wo, wi) = f_top + T(wo) T(wi) R / (pi eta^2) sum_{k < K} (R rho)^k.
-// So this closure evaluates it exactly, without noise; a smooth coat's T is (1 - Fresnel) exp(-thickness / cos refracted).
+// So this closure evaluates it exactly, without noise; a smooth coat's T is (1 - Fresnel) exp(-thickness / cos
+// refracted).
 //
-// Scattering in the gap (`albedo` > 0) is not simulated: gaps are optically thin, and light that scatters mostly goes on to
-// where it went anyway, so only the absorbed part of the extinction, (1 - albedo) thickness, counts. A warning says so.
-// Sampling: the coat's reflection or the cosine lobe, in proportion to what each reflects from wo.
-// Thread safety: plain values. Sources: Guo, Hasan & Zhao, SIGGRAPH Asia 2018 (the walk); Saunderson 1942 (the series).
+// Scattering in the gap (`albedo` > 0) is not simulated: gaps are optically thin, and light that scatters mostly goes
+// on to where it went anyway, so only the absorbed part of the extinction, (1 - albedo) thickness, counts. A warning
+// says so. Sampling: the coat's reflection or the cosine lobe, in proportion to what each reflects from wo. Thread
+// safety: plain values. Sources: Guo, Hasan & Zhao, SIGGRAPH Asia 2018 (the walk); Saunderson 1942 (the series).
 #pragma once
 
 #include "core/math/warps.h"
@@ -26,7 +27,7 @@ struct CoatReader {
     Mask<F> smooth;
     Ggx<F> ggx;
     const float* tables;
-    UInt<F> offset;         ///< of the lane's block
+    UInt<F> offset;  ///< of the lane's block
     F firstRow, rowsPerRoot, lastRow;
 
     struct Value {
@@ -173,10 +174,13 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
         {"float", "thickness", "0.01", "of the gap, which absorbs one e-fold a unit"},
         {"spectrum", "albedo", "0", "of scattering in the gap (lessens its absorption)"},
         {"integer", "maxdepth", "10", "light meets the base at most half as often, rounded up"},
-        kRoughnessParameter, kURoughnessParameter, kVRoughnessParameter, kRemapRoughnessParameter,
+        kRoughnessParameter,
+        kURoughnessParameter,
+        kVRoughnessParameter,
+        kRemapRoughnessParameter,
     };
-    static constexpr PluginInfo kInfo{"coateddiffuse", "Lambertian base under a smooth or rough dielectric coat, two-sided",
-                                      kParameters};
+    static constexpr PluginInfo kInfo{
+        "coateddiffuse", "Lambertian base under a smooth or rough dielectric coat, two-sided", kParameters};
     static constexpr bool kPassThrough = false;
     template <class F>
     using Bsdf = CoatedDiffuseBsdf<F>;
@@ -184,14 +188,14 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
     SpectrumInput reflectance{};
     float eta = 1.5f, opticalThickness = 0.01f;
     std::uint32_t baseBounces = 5;
-    std::uint32_t table = 0;                                    ///< offset of the block of coat_table.h
-    float firstRow = 0.f, rowsPerRoot = 0.f, lastRow = 0.f;     ///< CoatRows
+    std::uint32_t table = 0;                                 ///< offset of the block of coat_table.h
+    float firstRow = 0.f, rowsPerRoot = 0.f, lastRow = 0.f;  ///< CoatRows
 
     static CoatedDiffuseMaterial make(MaterialInput& input);
 
     template <class F>
     static CoatedDiffuseBsdf<F> bsdf(const Records<F, CoatedDiffuseMaterial>& m, const ShadingContext<F>& at) {
-        return closure(m, at.tables, surface(m, at), at.albedo(m, &CoatedDiffuseMaterial::reflectance));
+        return closure(m, at.tables, surface(m, at), at.spectrum(m, &CoatedDiffuseMaterial::reflectance));
     }
 
     /// The closure for a roughness and reflectance already looked up.
@@ -200,8 +204,8 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
                                         const SurfaceRoughness<F>& rough, const Spectrum<F>& reflectance) {
         using M = CoatedDiffuseMaterial;
         const F eta = m(&M::eta), etaSquared = eta * eta;
-        const CoatReader<F> coat{eta, m(&M::opticalThickness), rough.smooth, rough.ggx, tables,
-                                 m(&M::table), m(&M::firstRow), m(&M::rowsPerRoot), m(&M::lastRow)};
+        const CoatReader<F> coat{eta,          m(&M::opticalThickness), rough.smooth,       rough.ggx,     tables,
+                                 m(&M::table), m(&M::firstRow),         m(&M::rowsPerRoot), m(&M::lastRow)};
         const auto [rho, tau] = coat.base();
         const UInt<F> bounces = m(&M::baseBounces);
         const Spectrum<F> series{geometricSum(reflectance.r * rho, bounces), geometricSum(reflectance.g * rho, bounces),
@@ -209,7 +213,6 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
         return {coat, reflectance * series * (F(kInvPi) / etaSquared), F(kPi) * etaSquared * tau};
     }
 
-private:
     void setRows(const CoatRows& rows);
 };
 

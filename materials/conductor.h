@@ -53,7 +53,10 @@ struct ConductorMaterial : RoughnessInputs {
         {"spectrum", "eta", "metal-Cu-eta", "index of refraction"},
         {"spectrum", "k", "metal-Cu-k", "absorption coefficient"},
         {"spectrum", "reflectance", "", "at normal incidence, instead of eta and k; texture or any spectrum"},
-        kRoughnessParameter, kURoughnessParameter, kVRoughnessParameter, kRemapRoughnessParameter,
+        kRoughnessParameter,
+        kURoughnessParameter,
+        kVRoughnessParameter,
+        kRemapRoughnessParameter,
     };
     static constexpr PluginInfo kInfo{"conductor", "metal, smooth or rough (GGX), two-sided", kParameters};
     static constexpr bool kPassThrough = false;
@@ -89,9 +92,12 @@ struct ConductorMaterial : RoughnessInputs {
         ConductorConstants<Spectrum<F>> index{m(&ConductorMaterial::difference), m(&ConductorMaterial::product)};
         const Mask<F> byReflectance = m(&ConductorMaterial::byReflectance) != UInt<F>(0u);
         if (any(byReflectance)) {
-            const Spectrum<F> r = at.albedo(m, &ConductorMaterial::reflectance);
+            const Spectrum<F> r = at.spectrum(m, &ConductorMaterial::reflectance);
             const Spectrum<F> one = Spectrum<F>::constant(F(1.f));
-            const auto kSquared = [](F x) { const F r = min(x, F(0.9999f)); return F(4.f) * r / (F(1.f) - r); };
+            const auto kSquared = [](F x) {
+                const F r = min(x, F(0.9999f));
+                return F(4.f) * r / (F(1.f) - r);
+            };
             const Spectrum<F> k2{kSquared(r.r), kSquared(r.g), kSquared(r.b)};
             index.difference = select(byReflectance, one - k2, index.difference);
             index.product = select(byReflectance, F(4.f) * k2, index.product);

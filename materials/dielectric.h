@@ -1,8 +1,8 @@
 // "dielectric": the border of a transparent body, smooth or rough (GGX).
 //
-// The outside is the side of the normal; `eta` is the index inside over that outside. Light reflects by Fresnel's equations
-// and refracts by Snell's law at the microfacet; refracted radiance scales by (n_o / n_i)^2, wo's index over wi's.
-// An index within 1e-4 of 1 passes light straight on. What happens inside the body is the business of media.
+// The outside is the side of the normal; `eta` is the index inside over that outside. Light reflects by Fresnel's
+// equations and refracts by Snell's law at the microfacet; refracted radiance scales by (n_o / n_i)^2, wo's index over
+// wi's. An index within 1e-4 of 1 passes light straight on. What happens inside the body is the business of media.
 // Single scattering: rough borders lose the light that would bounce between microfacets.
 // Thread safety: plain values. Sources: Walter et al., EGSR 2007, eq. 16-21; fresnel.h, microfacet.h.
 #pragma once
@@ -42,7 +42,8 @@ struct DielectricBsdf {
 
         const F fresnel = dielectricFresnel(clamp(om, F(0.f), F(1.f)), relative).reflectance;
         const GgxReflection<F> r = ggx.reflection(wo, {wi.x, wi.y, abs(wi.z)}, ggx.density(h, h2));
-        // Refraction has the Jacobian eta^2 |wi.m| / |h|^2 where reflection has 1 / (4 wo.m); radiance scales by 1 / eta^2.
+        // Refraction has the Jacobian eta^2 |wi.m| / |h|^2 where reflection has 1 / (4 wo.m); radiance scales by 1 /
+        // eta^2.
         const F refraction = F(4.f) * (F(1.f) - fresnel) * abs(om * im) / max(h2, F(1e-30f));
         const F f = r.fCos * select(reflects, fresnel, refraction);
         const F pdf = r.pdf * select(reflects, fresnel, refraction * relative * relative);
@@ -83,9 +84,13 @@ struct DielectricBsdf {
 struct DielectricMaterial : RoughnessInputs {
     static constexpr ParameterInfo kParameters[] = {
         {"float", "eta", "1.5", "index inside over index outside; a spectrum counts with its mean (no dispersion)"},
-        kRoughnessParameter, kURoughnessParameter, kVRoughnessParameter, kRemapRoughnessParameter,
+        kRoughnessParameter,
+        kURoughnessParameter,
+        kVRoughnessParameter,
+        kRemapRoughnessParameter,
     };
-    static constexpr PluginInfo kInfo{"dielectric", "glass, water: smooth or rough (GGX) reflection and refraction", kParameters};
+    static constexpr PluginInfo kInfo{"dielectric", "glass, water: smooth or rough (GGX) reflection and refraction",
+                                      kParameters};
     static constexpr bool kPassThrough = false;
     template <class F>
     using Bsdf = DielectricBsdf<F>;

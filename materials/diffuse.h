@@ -45,7 +45,7 @@ struct DiffuseMaterial {
 
     template <class F>
     static DiffuseBsdf<F> bsdf(const Records<F, DiffuseMaterial>& m, const ShadingContext<F>& at) {
-        return {at.albedo(m, &DiffuseMaterial::reflectance)};
+        return {at.spectrum(m, &DiffuseMaterial::reflectance)};
     }
 };
 

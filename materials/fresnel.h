@@ -1,8 +1,8 @@
 // Fresnel's equations for unpolarised light, over lanes.
 //
-// Conventions: cosines are those of the angle to the (micro)normal on the incident side, in [0, 1]; eta is the index of the
-// far side over that of the incident side. Thread safety: pure functions.
-// Source: Born & Wolf, Principles of Optics, 1.5.2 (dielectrics) and 14.2 (metals). Both are brought to one division.
+// Conventions: cosines are those of the angle to the (micro)normal on the incident side, in [0, 1]; eta is the index of
+// the far side over that of the incident side. Thread safety: pure functions. Source: Born & Wolf, Principles of
+// Optics, 1.5.2 (dielectrics) and 14.2 (metals). Both are brought to one division.
 #pragma once
 
 #include "core/math/vector.h"
@@ -43,7 +43,7 @@ template <class F>
 F conductorReflectance(F cosIncident, F difference, F product) {
     const F c = cosIncident, c2 = c * c, s2 = F(1.f) - c2;
     const F t = difference - s2;
-    const F modulus = sqrt(t * t + product);                  // a^2 + b^2, where (a + i b)^2 = (eta + i k)^2 - sin^2
+    const F modulus = sqrt(t * t + product);  // a^2 + b^2, where (a + i b)^2 = (eta + i k)^2 - sin^2
     const F a = safeSqrt(F(0.5f) * (modulus + t));
     const F sSum = modulus + c2, sDifference = F(2.f) * a * c;  // R_s = (sum - difference) / (sum + difference)
     const F pSum = modulus * c2 + s2 * s2, pDifference = sDifference * s2;  // R_p = R_s times the same of these

@@ -1,4 +1,5 @@
-// What a material gets when it is made (MaterialInput, cold) and when it builds a closure at a hit (ShadingContext, hot).
+// What a material gets when it is made (MaterialInput, cold) and when it builds a closure at a hit (ShadingContext,
+// hot).
 //
 // Thread safety: ShadingContext refers to immutable tables only.
 #pragma once
@@ -15,7 +16,8 @@
 
 namespace penumbra {
 
-/// A colour that is constant or comes from a texture. Read it with ShadingContext::spectrum.
+/// A colour in [0, 1] that is constant or comes from a texture (of the role Albedo). Read it with
+/// ShadingContext::spectrum.
 struct SpectrumInput {
     Spectrum<float> constant{};
     std::uint32_t texture = kNoTexture;
@@ -27,13 +29,13 @@ struct ScalarInput {
     std::uint32_t texture = kNoTexture;
 };
 
-/// The numbers that closures look up, of all materials in one array (ShadingContext::tables); a material keeps the offset
-/// of its block. Materials that would fill equal blocks share one.
-/// Thread safety: none while blocks are added; immutable afterwards.
+/// The numbers that closures look up, of all materials in one array (ShadingContext::tables); a material keeps the
+/// offset of its block. Materials that would fill equal blocks share one. Thread safety: none while blocks are added;
+/// immutable afterwards.
 class MaterialTables {
 public:
-    /// Offset of the block of that key (whatever decides the block's content, the kind of table first). Where there is none
-    /// yet, fill(std::vector<float>&) appends it.
+    /// Offset of the block of that key (whatever decides the block's content, the kind of table first). Where there is
+    /// none yet, fill(std::vector<float>&) appends it.
     template <class Fill>
     std::uint32_t block(const std::vector<float>& key, Fill&& fill) {
         const auto [place, isNew] = offsets_.try_emplace(key, std::uint32_t(numbers_.size()));
@@ -63,8 +65,8 @@ public:
     /// eta and k of a conductor (default copper).
     virtual ConductorIndex conductorIndex(std::string_view eta, std::string_view k) = 0;
     virtual const ParameterSet& parameters() const = 0;
-    virtual void warn(const std::string& text) = 0;                 ///< with the material's position before it
-    [[noreturn]] virtual void fail(const std::string& text) = 0;    ///< Error(BadData), likewise
+    virtual void warn(const std::string& text) = 0;               ///< with the material's position before it
+    [[noreturn]] virtual void fail(const std::string& text) = 0;  ///< Error(BadData), likewise
     virtual MaterialTables& tables() = 0;
 };
 
@@ -94,13 +96,6 @@ struct ShadingContext {
         const Mask<F> textured = texture != UInt<F>(kNoTexture);
         if (none(textured)) return out;
         return select(textured, textures.spectrum<F>(texture, at), out);
-    }
-
-    /// The same, clamped to [0, 1]: images may hold anything, reflectances may not.
-    template <class M>
-    Spectrum<F> albedo(const Records<F, M>& m, SpectrumInput M::*input) const {
-        const Spectrum<F> s = spectrum(m, input);
-        return {clamp(s.r, F(0.f), F(1.f)), clamp(s.g, F(0.f), F(1.f)), clamp(s.b, F(0.f), F(1.f))};
     }
 
     template <class M>

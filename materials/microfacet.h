@@ -1,14 +1,13 @@
 // The GGX (Trowbridge-Reitz) distribution of microfacets with Smith's height-correlated masking, and the roughness
 // parameters that rough materials share.
 //
-// Conventions: w, wo, wi, m are unit vectors in the local frame; those given to Ggx have z >= 0 (the caller mirrors what
-// lies below). alpha is per axis, x along the tangent.
-// Thread safety: plain values.
-// Sources: Walter, Marschner, Li & Torrance, EGSR 2007 (microfacet BSDFs); Heitz, JCGT 3(2), 2014 (masking, eq. 71-99,
-// anisotropy); Dupuy & Benyoub, CGF 42(8), 2023 (visible normals by spherical caps).
+// Conventions: w, wo, wi, m are unit vectors in the local frame; those given to Ggx have z >= 0 (the caller mirrors
+// what lies below). alpha is per axis, x along the tangent. Thread safety: plain values. Sources: Walter, Marschner, Li
+// & Torrance, EGSR 2007 (microfacet BSDFs); Heitz, JCGT 3(2), 2014 (masking, eq. 71-99, anisotropy); Dupuy & Benyoub,
+// CGF 42(8), 2023 (visible normals by spherical caps).
 //
-// Everything below is written in L(w) = sqrt((ax x)^2 + (ay y)^2 + z^2), because Smith's terms then have no quotient that
-// fails at grazing angles: Lambda(w) = (L/z - 1)/2, so G1(w) = 2z/(z + L), and with o = wo.z, i = wi.z
+// Everything below is written in L(w) = sqrt((ax x)^2 + (ay y)^2 + z^2), because Smith's terms then have no quotient
+// that fails at grazing angles: Lambda(w) = (L/z - 1)/2, so G1(w) = 2z/(z + L), and with o = wo.z, i = wi.z
 //   G2 / (4 o i) = 1 / (2 (i L(wo) + o L(wi))),     visible density D_w(m) / (4 w.m) = D / (2 (o + L(wo))).
 #pragma once
 
@@ -107,9 +106,11 @@ struct RoughnessInputs {
     }
 };
 
-inline constexpr ParameterInfo kRoughnessParameter{"float", "roughness", "0", "of the microfacets; 0 is smooth; texture or number"};
+inline constexpr ParameterInfo kRoughnessParameter{"float", "roughness", "0",
+                                                   "of the microfacets; 0 is smooth; texture or number"};
 inline constexpr ParameterInfo kURoughnessParameter{"float", "uroughness", "roughness", "roughness along the tangent"};
 inline constexpr ParameterInfo kVRoughnessParameter{"float", "vroughness", "roughness", "roughness across the tangent"};
-inline constexpr ParameterInfo kRemapRoughnessParameter{"bool", "remaproughness", "true", "alpha = sqrt(roughness), else alpha = roughness"};
+inline constexpr ParameterInfo kRemapRoughnessParameter{"bool", "remaproughness", "true",
+                                                        "alpha = sqrt(roughness), else alpha = roughness"};
 
 }  // namespace penumbra

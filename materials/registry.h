@@ -1,11 +1,11 @@
 // The materials that Penumbra has, what each must offer, and the table that holds those of one scene.
 //
-// To add a material: write its file (bsdf.h says what it needs) and name it in MaterialTypes. The factory, `penumbra list`
-// and the property tests are folds over that list.
+// To add a material: write its file (bsdf.h says what it needs) and name it in MaterialTypes. The factory, `penumbra
+// list` and the property tests are folds over that list.
 //
-// MaterialTable keeps one vector of rows a type. A scene numbers its materials densely so that those of one type (tag) are
-// neighbours: the batch driver sorts hits by this id and cuts groups of lanes where the tag changes, and within a group
-// equal materials stand together, which makes their look-ups broadcasts.
+// MaterialTable keeps one vector of rows a type. A scene numbers its materials densely so that those of one type (tag)
+// are neighbours: the batch driver sorts hits by this id and cuts groups of lanes where the tag changes, and within a
+// group equal materials stand together, which makes their look-ups broadcasts.
 //
 // Thread safety: building is single-threaded; a finished table is immutable and safe for any number of threads.
 // Invariants: ids of tag t are firstId(t) .. firstId(t + 1) - 1, and the row of an id is id - firstId(t).
@@ -24,33 +24,34 @@
 
 namespace penumbra {
 
-using MaterialTypes = TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial>;
+using MaterialTypes =
+    TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial>;
 
 /// What an integrator asks of a closure.
 template <class B, class F>
 concept BsdfClosure = std::is_trivially_copyable_v<B> &&
     requires(const B& bsdf, const Vec3<F>& w, F uLobe, const Vec2<F>& u) {
-        { bsdf.evaluate(w, w) } -> std::same_as<BsdfEval<F>>;
-        { bsdf.sample(w, uLobe, u) } -> std::same_as<BsdfSample<F>>;
-        { bsdf.smoothOnly() } -> std::same_as<Mask<F>>;
-        { bsdf.albedo(w) } -> std::same_as<Spectrum<F>>;
-    };
+    { bsdf.evaluate(w, w) } -> std::same_as<BsdfEval<F>>;
+    { bsdf.sample(w, uLobe, u) } -> std::same_as<BsdfSample<F>>;
+    { bsdf.smoothOnly() } -> std::same_as<Mask<F>>;
+    { bsdf.albedo(w) } -> std::same_as<Spectrum<F>>;
+};
 
 /// M makes closures for lanes of type F.
 template <class M, class F>
 concept ShadesLanes = BsdfClosure<typename M::template Bsdf<F>, F> &&
     requires(const Records<F, M>& records, const ShadingContext<F>& context) {
-        { M::bsdf(records, context) } -> std::same_as<typename M::template Bsdf<F>>;
-    };
+    { M::bsdf(records, context) } -> std::same_as<typename M::template Bsdf<F>>;
+};
 
 /// What every entry of MaterialTypes must be.
 template <class M>
-concept Material = std::is_trivially_copyable_v<M> && sizeof(M) % 4 == 0 && ShadesLanes<M, float> &&
-    ShadesLanes<M, Lanes8f> && requires(MaterialInput& input) {
-        { M::kInfo } -> std::same_as<const PluginInfo&>;
-        { M::kPassThrough } -> std::same_as<const bool&>;
-        { M::make(input) } -> std::same_as<M>;
-    };
+concept Material = std::is_trivially_copyable_v<M> && sizeof(M) % 4 == 0 &&
+                   ShadesLanes<M, float>&& ShadesLanes<M, Lanes8f>&& requires(MaterialInput& input) {
+    { M::kInfo } -> std::same_as<const PluginInfo&>;
+    { M::kPassThrough } -> std::same_as<const bool&>;
+    { M::make(input) } -> std::same_as<M>;
+};
 
 /// Where a material was put while the table is built. Becomes a dense id (MaterialTable::id) when all are in.
 struct MaterialHandle {
