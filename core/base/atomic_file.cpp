@@ -1,6 +1,6 @@
 #include "core/base/atomic_file.h"
 
-#include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace penumbra {
 namespace {
 
 [[noreturn]] void fail(ErrorKind kind, const std::string& path, const std::string& action, int reason) {
-    throw Error(kind, fmt::format("{}: {}: {}", path, action, std::strerror(reason)));
+    throw Error(kind, fmt::format("{}: {}: {}", pathText(path), action, std::strerror(reason)));
 }
 
 [[noreturn]] void failAt(std::uint64_t byte, const std::string& path) {
@@ -29,7 +29,8 @@ namespace {
 template <class Call>
 auto uninterrupted(const Call& call) {
     auto result = call();
-    while (result == -1 && errno == EINTR) result = call();
+    while (result == -1 && errno == EINTR)
+        result = call();
     return result;
 }
 
@@ -40,7 +41,7 @@ std::size_t writeAll(const char* data, std::size_t size, const WriteSome& writeS
     while (done < size) {
         const ssize_t n = uninterrupted([&] { return writeSome(data + done, size - done, done); });
         if (n < 0) break;
-        if (n == 0) {   // no progress and no reason given: never loop on it
+        if (n == 0) {  // no progress and no reason given: never loop on it
             errno = EIO;
             break;
         }
@@ -49,10 +50,11 @@ std::size_t writeAll(const char* data, std::size_t size, const WriteSome& writeS
     return done;
 }
 
-/// Whether the folder's entry itself reached the disk cannot be asked of every file system: those say EINVAL or ENOTSUP.
+/// Whether the folder's entry itself reached the disk cannot be asked of every file system: those say EINVAL or
+/// ENOTSUP.
 void syncFolder(const std::string& folder, const std::string& path) {
     const int descriptor = uninterrupted([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
-    if (descriptor < 0) return;   // a folder that may be written but not read
+    if (descriptor < 0) return;  // a folder that may be written but not read
     const int result = uninterrupted([&] { return ::fsync(descriptor); });
     const int reason = errno;
     ::close(descriptor);
@@ -67,12 +69,13 @@ std::string folderOf(const std::string& path) {
 }
 
 std::string temporaryName(const std::string& target) {
-    constexpr std::size_t kLongestPart = 100;   // names may have 255 bytes
+    constexpr std::size_t kLongestPart = 100;  // names may have 255 bytes
     char host[64] = "";
     ::gethostname(host, sizeof host - 1);
     const std::string name = target.substr(target.rfind('/') + 1);
     std::random_device random;
-    return fmt::format("{}/.{}.tmp.{}.{}.{:08x}", folderOf(target), name.substr(0, kLongestPart), host, ::getpid(), random());
+    return fmt::format("{}/.{}.tmp.{}.{}.{:08x}", folderOf(target), name.substr(0, kLongestPart), host, ::getpid(),
+                       random());
 }
 
 }  // namespace
@@ -87,9 +90,9 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), target_(path_
         if (path_.back() == '/') refuse(EISDIR);
     } else {
         if (S_ISDIR(status.st_mode)) refuse(EISDIR);
-        if (::access(path_.c_str(), W_OK) != 0) refuse(errno);   // rename would pass over a file's own write protection
+        if (::access(path_.c_str(), W_OK) != 0) refuse(errno);  // rename would pass over a file's own write protection
         inPlace_ = !S_ISREG(status.st_mode);
-        std::error_code ignored;   // on failure the link itself is replaced
+        std::error_code ignored;  // on failure the link itself is replaced
         if (const auto resolved = std::filesystem::canonical(path_, ignored); !inPlace_ && !resolved.empty())
             target_ = resolved.string();
     }
@@ -111,8 +114,8 @@ void AtomicFile::openTemporary() {
         fail(ErrorKind::CannotCreate, path_, "cannot create the file", ENAMETOOLONG);
     for (int i = 0; i < kTries && descriptor_ < 0; ++i) {
         temporary_ = temporaryName(target_);
-        descriptor_ = uninterrupted(
-            [&] { return ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+        descriptor_ =
+            uninterrupted([&] { return ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
         if (descriptor_ < 0 && errno != EEXIST) break;
     }
     if (descriptor_ >= 0) return;
@@ -136,14 +139,16 @@ void AtomicFile::write(const void* data, std::size_t size) {
     position_ += size;
 }
 
-void AtomicFile::commit() { inPlace_ ? commitInPlace() : commitByRename(); }
+void AtomicFile::commit() {
+    inPlace_ ? commitInPlace() : commitByRename();
+}
 
 void AtomicFile::commitInPlace() {
     descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CLOEXEC); });
     if (descriptor_ < 0) fail(ErrorKind::CannotCreate, path_, "cannot open for writing", errno);
-    const std::size_t done = writeAll(memory_.data(), memory_.size(), [&](const char* from, std::size_t count, std::size_t) {
-        return ::write(descriptor_, from, count);
-    });
+    const std::size_t done =
+        writeAll(memory_.data(), memory_.size(),
+                 [&](const char* from, std::size_t count, std::size_t) { return ::write(descriptor_, from, count); });
     if (done < memory_.size()) failAt(done, path_);
     const int result = ::close(std::exchange(descriptor_, -1));
     if (result != 0) fail(ErrorKind::CannotWrite, path_, "cannot close", errno);
@@ -153,7 +158,8 @@ void AtomicFile::commitByRename() {
     if (uninterrupted([&] { return ::fsync(descriptor_); }) != 0)
         fail(ErrorKind::CannotWrite, path_, "cannot sync to the disk", errno);
     if (::close(std::exchange(descriptor_, -1)) != 0) fail(ErrorKind::CannotWrite, path_, "cannot close", errno);
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(ErrorKind::CannotCreate, path_, "cannot rename to it", errno);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+        fail(ErrorKind::CannotCreate, path_, "cannot rename to it", errno);
     temporary_.clear();
     syncFolder(folderOf(target_), path_);
 }

@@ -1,6 +1,6 @@
 #include "core/color/color_space.h"
 
-#include "core/base/letter_case.h"
+#include "core/base/text.h"
 
 #include <vector>
 
@@ -31,9 +31,13 @@ Rgb ColorSpace::fromXyz(const Triple& xyz) const {
     return {float(c[0]), float(c[1]), float(c[2])};
 }
 
-Triple ColorSpace::toXyz(Rgb c) const { return xyzFromRgb * Triple{c.r, c.g, c.b}; }
+Triple ColorSpace::toXyz(Rgb c) const {
+    return xyzFromRgb * Triple{c.r, c.g, c.b};
+}
 
-double ColorSpace::luminance(Rgb c) const { return toXyz(c)[1]; }
+double ColorSpace::luminance(Rgb c) const {
+    return toXyz(c)[1];
+}
 
 const ColorSpace* findColorSpace(std::string_view name) {
     const std::string lower = lowerCase(name);
@@ -45,13 +49,16 @@ const ColorSpace* findColorSpace(std::string_view name) {
 std::span<const std::string> colorSpaceNames() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> list;
-        for (const ColorSpace& space : spaces()) list.push_back(space.name);
+        for (const ColorSpace& space : spaces())
+            list.push_back(space.name);
         return list;
     }();
     return names;
 }
 
-const ColorSpace& srgbColorSpace() { return spaces()[0]; }
+const ColorSpace& srgbColorSpace() {
+    return spaces()[0];
+}
 
 const ColorSpace* findColorSpace(Chromaticity red, Chromaticity green, Chromaticity blue, Chromaticity white) {
     const auto near = [](Chromaticity a, Chromaticity b) {
@@ -84,7 +91,9 @@ Matrix3 bradfordAdaptation(Chromaticity from, Chromaticity to) {
     return inverse(kBradford) * diagonal(gain) * kBradford;
 }
 
-Triple xyzOf(Chromaticity c) { return {c.x / c.y, 1, (1 - c.x - c.y) / c.y}; }
+Triple xyzOf(Chromaticity c) {
+    return {c.x / c.y, 1, (1 - c.x - c.y) / c.y};
+}
 
 Chromaticity chromaticityOf(const Triple& xyz) {
     const double sum = xyz[0] + xyz[1] + xyz[2];
@@ -92,7 +101,7 @@ Chromaticity chromaticityOf(const Triple& xyz) {
 }
 
 Rgb apply(const Matrix3& m, Rgb c) {
-    if (m == Matrix3{}) return c;   // exactly
+    if (m == Matrix3{}) return c;  // exactly
     const Triple v = m * Triple{c.r, c.g, c.b};
     return {float(v[0]), float(v[1]), float(v[2])};
 }

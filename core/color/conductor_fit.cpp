@@ -13,7 +13,8 @@ using Curve = std::array<double, kAngles>;
 const Curve& cosines() {
     static const Curve all = [] {
         Curve c;
-        for (int i = 0; i < kAngles; ++i) c[i] = std::cos((i + 0.5) * std::numbers::pi / (2 * kAngles));
+        for (int i = 0; i < kAngles; ++i)
+            c[i] = std::cos((i + 0.5) * std::numbers::pi / (2 * kAngles));
         return c;
     }();
     return all;
@@ -21,7 +22,8 @@ const Curve& cosines() {
 
 Curve fresnelCurve(double eta, double k) {
     Curve out;
-    for (int a = 0; a < kAngles; ++a) out[a] = conductorFresnel(cosines()[a], eta, k);
+    for (int a = 0; a < kAngles; ++a)
+        out[a] = conductorFresnel(cosines()[a], eta, k);
     return out;
 }
 
@@ -32,10 +34,12 @@ std::array<Curve, 3> targetCurves(const SampledSpectrum& eta, const SampledSpect
     for (int i = 0; i < kWavelengthCount; ++i) {
         const Curve reflectance = fresnelCurve(eta.values[i], k.values[i]);
         for (int c = 0; c < 3; ++c)
-            for (int a = 0; a < kAngles; ++a) target[c][a] += weights.rows[c][i] * reflectance[a];
+            for (int a = 0; a < kAngles; ++a)
+                target[c][a] += weights.rows[c][i] * reflectance[a];
     }
     for (Curve& curve : target)
-        for (double& value : curve) value = std::clamp(value, 0.0, 1.0);
+        for (double& value : curve)
+            value = std::clamp(value, 0.0, 1.0);
     return target;
 }
 
@@ -50,7 +54,8 @@ struct Trial {
 
 double squaredError(const Curve& a, const Curve& b) {
     double sum = 0;
-    for (int i = 0; i < kAngles; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    for (int i = 0; i < kAngles; ++i)
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
     return sum;
 }
 

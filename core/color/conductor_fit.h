@@ -1,11 +1,11 @@
-// RGB conductors from spectral ones: per channel, the (eta, k) whose Fresnel reflectance curve is nearest to the colour of the
-// spectral curve.
+// RGB conductors from spectral ones: per channel, the (eta, k) whose Fresnel reflectance curve is nearest to the colour
+// of the spectral curve.
 //
-// Averaging eta and k over wavelengths gives wrong colours, because reflectance is far from linear in them (copper's red
-// would lose several percent). So the reflectance itself is averaged: for each angle the colour of F(lambda, angle) under
-// the white of the space, clamped to [0, 1]; then eta and k are fitted to that curve by least squares over angles.
-// For the built-in metals the fitted curve stays within 0.002 of the target, but for channels whose colour lies outside the
-// space (gold's red 0.01, copper's and brass's red 0.005).
+// Averaging eta and k over wavelengths gives wrong colours, because reflectance is far from linear in them (copper's
+// red would lose several percent). So the reflectance itself is averaged: for each angle the colour of F(lambda, angle)
+// under the white of the space, clamped to [0, 1]; then eta and k are fitted to that curve by least squares over
+// angles. For the built-in metals the fitted curve stays within 0.002 of the target, but for channels whose colour lies
+// outside the space (gold's red 0.01, copper's and brass's red 0.005).
 #pragma once
 
 #include "core/color/spectrum.h"

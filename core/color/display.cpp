@@ -1,7 +1,7 @@
 #include "core/color/display.h"
 
 #include "core/base/error.h"
-#include "core/base/letter_case.h"
+#include "core/base/text.h"
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
@@ -42,7 +42,8 @@ OCIO::ConstTransformRcPtr plainTransform() {
     double values[16] = {};
     values[15] = 1;
     for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column) values[4 * row + column] = m.m[row][column];
+        for (int column = 0; column < 3; ++column)
+            values[4 * row + column] = m.m[row][column];
     OCIO::MatrixTransformRcPtr transform = OCIO::MatrixTransform::Create();
     transform->setMatrix(values);
     return transform;
@@ -59,7 +60,7 @@ void addView(OCIO::Config& config, const char* name, const OCIO::ConstTransformR
 /// Reference is ACES2065-1; the display is reached through CIE XYZ (D65), as in the ACES configurations.
 OCIO::ConstConfigRcPtr makeBuiltInConfig() {
     OCIO::ConfigRcPtr config = OCIO::Config::Create();
-    config->setVersion(2, 1);   // what OpenColorIO 2.1 understands
+    config->setVersion(2, 1);  // what OpenColorIO 2.1 understands
     OCIO::ColorSpaceRcPtr aces = OCIO::ColorSpace::Create(OCIO::REFERENCE_SPACE_SCENE);
     aces->setName(kAces);
     config->addColorSpace(aces);
@@ -72,7 +73,7 @@ OCIO::ConstConfigRcPtr makeBuiltInConfig() {
     screen->setTransform(builtinTransform("DISPLAY - CIE-XYZ-D65_to_sRGB"), OCIO::COLORSPACE_DIR_FROM_REFERENCE);
     config->addColorSpace(screen);
     config->setRole(OCIO::ROLE_SCENE_LINEAR, kAces);
-    config->setRole(OCIO::ROLE_DEFAULT, "Raw");   // the file rules that every configuration has ask for it
+    config->setRole(OCIO::ROLE_DEFAULT, "Raw");  // the file rules that every configuration has ask for it
 
     addView(*config, "Standard", plainTransform());
     addView(*config, "ACES", builtinTransform("ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0"));
@@ -92,7 +93,8 @@ LoadedConfig loadConfig(const std::string& given) {
     silenceLibrary();
     const std::string source = path.empty() ? kBuiltIn : (fromEnvironment ? "$OCIO " : "") + path;
     std::error_code ignored;
-    const bool isFile = !path.empty() && !path.starts_with("ocio://");   // that prefix names what the library has built in
+    const bool isFile =
+        !path.empty() && !path.starts_with("ocio://");  // that prefix names what the library has built in
     if (isFile && !std::filesystem::is_regular_file(path, ignored))
         throw Error(ErrorKind::MissingInput, fmt::format("{}: the OpenColorIO configuration cannot be opened", source));
     try {
@@ -106,32 +108,35 @@ LoadedConfig loadConfig(const std::string& given) {
 
 std::vector<std::string> displaysOf(const OCIO::Config& config) {
     std::vector<std::string> names;
-    for (int i = 0; i < config.getNumDisplays(); ++i) names.emplace_back(config.getDisplay(i));
+    for (int i = 0; i < config.getNumDisplays(); ++i)
+        names.emplace_back(config.getDisplay(i));
     return names;
 }
 
 std::vector<std::string> viewsOf(const OCIO::Config& config, const std::string& display) {
     std::vector<std::string> names;
-    for (int i = 0; i < config.getNumViews(display.c_str()); ++i) names.emplace_back(config.getView(display.c_str(), i));
+    for (int i = 0; i < config.getNumViews(display.c_str()); ++i)
+        names.emplace_back(config.getView(display.c_str(), i));
     return names;
 }
 
 std::vector<std::string> spacesOf(const OCIO::Config& config) {
     std::vector<std::string> names;
-    for (int i = 0; i < config.getNumColorSpaces(); ++i) names.emplace_back(config.getColorSpaceNameByIndex(i));
+    for (int i = 0; i < config.getNumColorSpaces(); ++i)
+        names.emplace_back(config.getColorSpaceNameByIndex(i));
     return names;
 }
 
 /// The name in the configuration's spelling, found in any case; the default where none is asked for.
-std::string choose(const char* kind, const std::string& wanted, const char* otherwise, const std::vector<std::string>& known,
-                   const std::string& source) {
-    if (known.empty()) throw Error(ErrorKind::Configuration, fmt::format("{}: the configuration has no {}", source, kind));
+std::string choose(const char* kind, const std::string& wanted, const char* otherwise,
+                   const std::vector<std::string>& known, const std::string& source) {
+    if (known.empty())
+        throw Error(ErrorKind::Configuration, fmt::format("{}: the configuration has no {}", source, kind));
     const std::string name = wanted.empty() ? otherwise : wanted;
     for (const std::string& k : known)
         if (lowerCase(k) == lowerCase(name)) return k;
-    throw Error(ErrorKind::Usage,
-                fmt::format("unknown {} {}; those of the OpenColorIO configuration ({}) are: {}", kind, quote(name), source,
-                            fmt::join(known, ", ")));
+    throw Error(ErrorKind::Usage, fmt::format("unknown {} {}; those of the OpenColorIO configuration ({}) are: {}",
+                                              kind, quote(name), source, fmt::join(known, ", ")));
 }
 
 /// The space in which pixels enter the configuration, and what takes the film's colours there.
@@ -144,13 +149,15 @@ Entry entryInto(const LoadedConfig& loaded, const std::string& wanted, const Col
     const OCIO::Config& config = *loaded.config;
     if (!wanted.empty()) return {choose("colour space", wanted, "", spacesOf(config), loaded.source), {}};
     for (const char* name : {"aces_interchange", kAces, "ACES - ACES2065-1", "aces", "lin_ap0"})
-        if (config.getColorSpace(name))   // white to white, as OpenColorIO's own conversions of ACES go
+        if (config.getColorSpace(name))  // white to white, as OpenColorIO's own conversions of ACES go
             return {name, reflectanceConversion(film, *findColorSpace("aces2065-1"))};
     if (config.getColorSpace(OCIO::ROLE_SCENE_LINEAR)) return {OCIO::ROLE_SCENE_LINEAR, {}};
-    throw Error(ErrorKind::Configuration,
-                fmt::format("{}: the configuration has neither ACES2065-1 nor a scene_linear role; name the colour space of the "
-                            "pixels; those of the configuration are: {}",
-                            loaded.source, fmt::join(spacesOf(config), ", ")));
+    throw Error(
+        ErrorKind::Configuration,
+        fmt::format(
+            "{}: the configuration has neither ACES2065-1 nor a scene_linear role; name the colour space of the "
+            "pixels; those of the configuration are: {}",
+            loaded.source, fmt::join(spacesOf(config), ", ")));
 }
 
 /// A view of data shows numbers as they are, so they must not be converted on entry either.
@@ -164,7 +171,7 @@ bool showsData(const OCIO::Config& config, const std::string& display, const std
 
 struct DisplayTransform::State {
     OCIO::ConstCPUProcessorRcPtr processor;
-    Matrix3 matrix;   ///< film to the configuration's entry, exposure included
+    Matrix3 matrix;  ///< film to the configuration's entry, exposure included
     std::string display, view, source;
 };
 
@@ -173,7 +180,8 @@ DisplayTransform::DisplayTransform(const DisplayOptions& options, const ColorSpa
     const OCIO::Config& config = *loaded.config;
     try {
         state_->source = loaded.source;
-        state_->display = choose("display", options.display, config.getDefaultDisplay(), displaysOf(config), loaded.source);
+        state_->display =
+            choose("display", options.display, config.getDefaultDisplay(), displaysOf(config), loaded.source);
         state_->view = choose("view", options.view, config.getDefaultView(state_->display.c_str()),
                               viewsOf(config, state_->display), loaded.source);
         const Entry entry = entryInto(loaded, options.inputSpace, film);
@@ -186,7 +194,8 @@ DisplayTransform::DisplayTransform(const DisplayOptions& options, const ColorSpa
         transform->setDisplay(state_->display.c_str());
         transform->setView(state_->view.c_str());
         // Exact arithmetic but for the inversion of look-up tables, which would take minutes.
-        constexpr auto kOptimization = OCIO::OptimizationFlags(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_LUT_INV_FAST);
+        constexpr auto kOptimization =
+            OCIO::OptimizationFlags(OCIO::OPTIMIZATION_LOSSLESS | OCIO::OPTIMIZATION_LUT_INV_FAST);
         state_->processor = config.getProcessor(transform)->getOptimizedCPUProcessor(kOptimization);
     } catch (const Error&) {
         throw;
@@ -206,7 +215,8 @@ void DisplayTransform::apply(std::span<float> rgb) const {
         for (int c = 0; c < 3; ++c)
             if (!std::isfinite(p[c])) p[c] = 0;
         const Triple v = state_->matrix * Triple{p[0], p[1], p[2]};
-        for (int c = 0; c < 3; ++c) p[c] = float(v[c]);
+        for (int c = 0; c < 3; ++c)
+            p[c] = float(v[c]);
     }
     if (pixels == 0) return;
     // In rows of a bounded length: OpenColorIO's sizes are longs, its scratch memory one row.
@@ -217,14 +227,21 @@ void DisplayTransform::apply(std::span<float> rgb) const {
     }
 }
 
-const std::string& DisplayTransform::display() const { return state_->display; }
-const std::string& DisplayTransform::view() const { return state_->view; }
-const std::string& DisplayTransform::configuration() const { return state_->source; }
+const std::string& DisplayTransform::display() const {
+    return state_->display;
+}
+const std::string& DisplayTransform::view() const {
+    return state_->view;
+}
+const std::string& DisplayTransform::configuration() const {
+    return state_->source;
+}
 
 std::vector<DisplayList> listDisplays(const std::string& path) {
     const LoadedConfig loaded = loadConfig(path);
     std::vector<DisplayList> list;
-    for (const std::string& display : displaysOf(*loaded.config)) list.push_back({display, viewsOf(*loaded.config, display)});
+    for (const std::string& display : displaysOf(*loaded.config))
+        list.push_back({display, viewsOf(*loaded.config, display)});
     return list;
 }
 

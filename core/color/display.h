@@ -1,9 +1,9 @@
 // DisplayTransform: from the film's linear RGB to the code values of a screen, through OpenColorIO.
 //
-// The configuration is, in this order: the path given, the file that $OCIO names, or one built in code whose display "sRGB"
-// has the views "Standard" (the sRGB curve alone), "ACES" (ACES 1.0 SDR video rendering) and "Raw" (no transform).
-// Where a configuration knows ACES2065-1 the film's colours enter through it, so any configuration works with any film;
-// otherwise they enter through its scene_linear role unconverted, unless `inputSpace` names the space.
+// The configuration is, in this order: the path given, the file that $OCIO names, or one built in code whose display
+// "sRGB" has the views "Standard" (the sRGB curve alone), "ACES" (ACES 1.0 SDR video rendering) and "Raw" (no
+// transform). Where a configuration knows ACES2065-1 the film's colours enter through it, so any configuration works
+// with any film; otherwise they enter through its scene_linear role unconverted, unless `inputSpace` names the space.
 // Thread safety: apply() may be called from several threads.
 #pragma once
 
@@ -17,17 +17,17 @@
 namespace penumbra {
 
 struct DisplayOptions {
-    std::string config;       ///< path of an OCIO configuration; empty: $OCIO, else the built-in one
-    std::string display;      ///< empty: the configuration's default
-    std::string view;         ///< empty: the display's default
-    std::string inputSpace;   ///< colour space of the configuration in which the pixels are; empty: found as said above
-    float exposure = 0;       ///< stops; pixels are multiplied by 2^exposure first
+    std::string config;      ///< path of an OCIO configuration; empty: $OCIO, else the built-in one
+    std::string display;     ///< empty: the configuration's default
+    std::string view;        ///< empty: the display's default
+    std::string inputSpace;  ///< colour space of the configuration in which the pixels are; empty: found as said above
+    float exposure = 0;      ///< stops; pixels are multiplied by 2^exposure first
 };
 
 class DisplayTransform {
 public:
-    /// Throws Error: MissingInput or Configuration for the configuration, Usage for an unknown display, view or space (the
-    /// message lists those there are).
+    /// Throws Error: MissingInput or Configuration for the configuration, Usage for an unknown display, view or space
+    /// (the message lists those there are).
     DisplayTransform(const DisplayOptions& options, const ColorSpace& film);
     ~DisplayTransform();
     DisplayTransform(DisplayTransform&&) noexcept;

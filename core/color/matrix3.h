@@ -16,7 +16,8 @@ struct Matrix3 {
 
 inline Triple operator*(const Matrix3& a, const Triple& v) {
     Triple out{};
-    for (int row = 0; row < 3; ++row) out[row] = a.m[row][0] * v[0] + a.m[row][1] * v[1] + a.m[row][2] * v[2];
+    for (int row = 0; row < 3; ++row)
+        out[row] = a.m[row][0] * v[0] + a.m[row][1] * v[1] + a.m[row][2] * v[2];
     return out;
 }
 
@@ -29,7 +30,9 @@ inline Matrix3 operator*(const Matrix3& a, const Matrix3& b) {
     return out;
 }
 
-inline Matrix3 diagonal(const Triple& d) { return {{{{d[0], 0, 0}, {0, d[1], 0}, {0, 0, d[2]}}}}; }
+inline Matrix3 diagonal(const Triple& d) {
+    return {{{{d[0], 0, 0}, {0, d[1], 0}, {0, 0, d[2]}}}};
+}
 
 /// Inverse by cofactors. Colour matrices are never near singular, so there is no check.
 Matrix3 inverse(const Matrix3& a);

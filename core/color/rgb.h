@@ -1,7 +1,7 @@
 // Rgb: three linear colour values of cold code (the lanes of hot code have their own Spectrum<F>).
 //
-// Conventions: linear light, in the primaries of whatever ColorSpace goes with it. Values may be negative (colours outside
-// the space) or beyond 1.
+// Conventions: linear light, in the primaries of whatever ColorSpace goes with it. Values may be negative (colours
+// outside the space) or beyond 1.
 #pragma once
 
 #include <algorithm>

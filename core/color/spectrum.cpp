@@ -1,7 +1,7 @@
 #include "core/color/spectrum.h"
 
 #include "core/base/byte_reader.h"
-#include "core/base/error.h"
+#include "core/base/text.h"
 
 #include <fmt/format.h>
 
@@ -32,8 +32,8 @@ SampledSpectrum linearBetween(const Knots& knots) {
     return out;
 }
 
-/// Six-point Lagrange interpolation: takes the observer from 5 nm back to the standard's 1 nm table within 1e-5 of its peak,
-/// where straight lines would be off by 1e-3.
+/// Six-point Lagrange interpolation: takes the observer from 5 nm back to the standard's 1 nm table within 1e-5 of its
+/// peak, where straight lines would be off by 1e-3.
 SampledSpectrum smoothBetween(const Knots& knots) {
     constexpr int kPoints = 6;
     SampledSpectrum out;
@@ -108,14 +108,15 @@ std::vector<Word> splitWords(std::string_view text) {
 }
 
 std::string readText(const std::string& path) {
-    constexpr std::size_t kLargest = std::size_t(8) << 20;   // a 1 nm table has some 10 KB
+    constexpr std::size_t kLargest = std::size_t(8) << 20;  // a 1 nm table has some 10 KB
     ByteReader reader = ByteReader::open(path);
     std::string text;
     while (reader.fill(1)) {
         text.append(reader.data(), reader.available());
         reader.consume(reader.available());
         if (text.size() > kLargest)
-            throw Error(ErrorKind::BadData, fmt::format("{}: too large for a spectrum (over {} MiB)", path, kLargest >> 20));
+            throw Error(ErrorKind::BadData,
+                        fmt::format("{}: too large for a spectrum (over {} MiB)", pathText(path), kLargest >> 20));
     }
     return text;
 }
@@ -126,8 +127,8 @@ float numberOf(const Word& word, const std::string& path) {
     float value = 0;
     const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (status != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-        throw Error(ErrorKind::BadData, fmt::format("{}:{}:{}: expected a finite number, found {}", path, word.line, word.column,
-                                                    quote(word.text)));
+        throw Error(ErrorKind::BadData, fmt::format("{}:{}:{}: expected a finite number, found {}", pathText(path),
+                                                    word.line, word.column, quote(word.text)));
     return value;
 }
 
@@ -136,7 +137,8 @@ void checkPairs(std::span<const float> pairs, std::string_view what) {
         throw Error(ErrorKind::BadData, fmt::format("{}: {}", what, reason));
     };
     if (pairs.empty() || pairs.size() % 2 != 0)
-        fail(fmt::format("a spectrum is given by pairs of wavelength (nm) and value, but there are {} numbers", pairs.size()));
+        fail(fmt::format("a spectrum is given by pairs of wavelength (nm) and value, but there are {} numbers",
+                         pairs.size()));
     for (std::size_t i = 0; i < pairs.size(); i += 2) {
         if (!std::isfinite(pairs[i]) || !std::isfinite(pairs[i + 1])) fail("a number of the spectrum is not finite");
         if (!(pairs[i] > 0)) fail(fmt::format("wavelength {} nm is not above 0", pairs[i]));
@@ -157,12 +159,14 @@ SampledSpectrum blackbodySpectrum(double kelvin) {
     constexpr double kWien = 2.8977721e-3;
     const double peak = planck(kWien / kelvin, kelvin);
     SampledSpectrum out;
-    for (int i = 0; i < kWavelengthCount; ++i) out.values[i] = planck((kFirstWavelength + i) * 1e-9, kelvin) / peak;
+    for (int i = 0; i < kWavelengthCount; ++i)
+        out.values[i] = planck((kFirstWavelength + i) * 1e-9, kelvin) / peak;
     return out;
 }
 
 SampledSpectrum daylightSpectrum(double kelvin) {
-    const double t = kelvin * 1.4388 / 1.4380;   // the scale's second radiation constant has changed since D65 was defined
+    const double t =
+        kelvin * 1.4388 / 1.4380;  // the scale's second radiation constant has changed since D65 was defined
     if (t < 4000) return blackbodySpectrum(t);
     const double x = t <= 7000 ? ((-4.607e9 / t + 2.9678e6) / t + 0.09911e3) / t + 0.244063
                                : ((-2.0064e9 / t + 1.9018e6) / t + 0.24748e3) / t + 0.23704;
@@ -170,18 +174,20 @@ SampledSpectrum daylightSpectrum(double kelvin) {
     const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
     const double m1 = (-1.3515 - 1.7703 * x + 5.9114 * y) / m, m2 = (0.03 - 31.4424 * x + 30.0717 * y) / m;
     Knots knots;
-    for (int i = 0; i < kKnotCount; ++i) knots[i] = kDaylight[0][i] + m1 * kDaylight[1][i] + m2 * kDaylight[2][i];
+    for (int i = 0; i < kKnotCount; ++i)
+        knots[i] = kDaylight[0][i] + m1 * kDaylight[1][i] + m2 * kDaylight[2][i];
     return linearBetween(knots);
 }
 
 SampledSpectrum piecewiseLinearSpectrum(std::span<const float> pairs, std::string_view what) {
     checkPairs(pairs, what);
     SampledSpectrum out;
-    std::size_t right = 0;   // the first knot at or beyond the wavelength
+    std::size_t right = 0;  // the first knot at or beyond the wavelength
     const std::size_t count = pairs.size() / 2;
     for (int i = 0; i < kWavelengthCount; ++i) {
         const double nm = kFirstWavelength + i;
-        while (right < count && pairs[2 * right] < nm) ++right;
+        while (right < count && pairs[2 * right] < nm)
+            ++right;
         if (right == count) break;
         const double x1 = pairs[2 * right], y1 = pairs[2 * right + 1];
         if (x1 == nm) {
@@ -197,8 +203,9 @@ SampledSpectrum piecewiseLinearSpectrum(std::span<const float> pairs, std::strin
 SampledSpectrum readSpectrumFile(const std::string& path) {
     const std::string text = readText(path);
     std::vector<float> pairs;
-    for (const Word& word : splitWords(text)) pairs.push_back(numberOf(word, path));
-    return piecewiseLinearSpectrum(pairs, path);
+    for (const Word& word : splitWords(text))
+        pairs.push_back(numberOf(word, path));
+    return piecewiseLinearSpectrum(pairs, pathText(path));
 }
 
 const SampledSpectrum* findBuiltinSpectrum(std::string_view name) {
@@ -207,7 +214,9 @@ const SampledSpectrum* findBuiltinSpectrum(std::string_view name) {
     return found == all.names.end() ? nullptr : &all.spectra[found - all.names.begin()];
 }
 
-std::span<const std::string> builtinSpectrumNames() { return builtins().names; }
+std::span<const std::string> builtinSpectrumNames() {
+    return builtins().names;
+}
 
 Triple colorMatching(int index) {
     return {observer()[0].values[index], observer()[1].values[index], observer()[2].values[index]};
@@ -216,7 +225,8 @@ Triple colorMatching(int index) {
 Triple xyzSum(const SampledSpectrum& spectrum) {
     Triple sum{};
     for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < kWavelengthCount; ++i) sum[c] += observer()[c].values[i] * spectrum.values[i];
+        for (int i = 0; i < kWavelengthCount; ++i)
+            sum[c] += observer()[c].values[i] * spectrum.values[i];
     return sum;
 }
 
@@ -235,15 +245,18 @@ const ChannelWeights& channelWeights(const ColorSpace& space) {
         Triple sum{};
         for (int i = 0; i < kWavelengthCount; ++i) {
             const Triple rgb = s.rgbFromXyz * colorMatching(i);
-            for (int c = 0; c < 3; ++c) sum[c] += weights.rows[c][i] = rgb[c] * white.values[i];
+            for (int c = 0; c < 3; ++c)
+                sum[c] += weights.rows[c][i] = rgb[c] * white.values[i];
         }
         for (int c = 0; c < 3; ++c)
-            for (double& w : weights.rows[c]) w /= sum[c];
+            for (double& w : weights.rows[c])
+                w /= sum[c];
         return weights;
     };
     static const std::vector<std::pair<const ColorSpace*, ChannelWeights>> all = [&] {
         std::vector<std::pair<const ColorSpace*, ChannelWeights>> list;
-        for (const std::string& name : colorSpaceNames()) list.emplace_back(findColorSpace(name), make(*findColorSpace(name)));
+        for (const std::string& name : colorSpaceNames())
+            list.emplace_back(findColorSpace(name), make(*findColorSpace(name)));
         return list;
     }();
     return std::find_if(all.begin(), all.end(), [&](const auto& entry) { return entry.first == &space; })->second;
@@ -253,7 +266,8 @@ Rgb reflectanceToRgb(const SampledSpectrum& spectrum, const ColorSpace& space) {
     const ChannelWeights& weights = channelWeights(space);
     Triple sum{};
     for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < kWavelengthCount; ++i) sum[c] += weights.rows[c][i] * spectrum.values[i];
+        for (int i = 0; i < kWavelengthCount; ++i)
+            sum[c] += weights.rows[c][i] * spectrum.values[i];
     return {float(sum[0]), float(sum[1]), float(sum[2])};
 }
 

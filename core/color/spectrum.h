@@ -1,10 +1,10 @@
 // SampledSpectrum: what scene files give as a spectrum, tabulated every nanometre, and its colour.
 //
-// Conventions: wavelengths in nm, 360 to 830 inclusive. Sums over wavelengths are plain sums of the 1 nm samples, as the pbrt
-// format defines them: the constant 1 has Y = kYbarSum. Spectra given in a file or as numbers are zero outside their range;
-// built-in tables are held constant beyond their measured ends.
-// Thread safety: all immutable after construction; built-in spectra live as long as the program.
-// Source: CIE 1931 2-degree observer (ISO/CIE 11664-1); illuminants CIE 015; the origin of each table is in data/.
+// Conventions: wavelengths in nm, 360 to 830 inclusive. Sums over wavelengths are plain sums of the 1 nm samples, as
+// the pbrt format defines them: the constant 1 has Y = kYbarSum. Spectra given in a file or as numbers are zero outside
+// their range; built-in tables are held constant beyond their measured ends. Thread safety: all immutable after
+// construction; built-in spectra live as long as the program. Source: CIE 1931 2-degree observer (ISO/CIE 11664-1);
+// illuminants CIE 015; the origin of each table is in data/.
 #pragma once
 
 #include "core/color/color_space.h"
@@ -35,8 +35,8 @@ SampledSpectrum blackbodySpectrum(double kelvin);
 /// The temperature is that of the redefined scale (c2 = 1.4388e-2 m K), so that 6500 means D65.
 SampledSpectrum daylightSpectrum(double kelvin);
 
-/// Linear between (wavelength, value) pairs, zero outside. Throws Error(BadData), the message beginning with `what`, unless
-/// the numbers are finite, in pairs, at least one, with strictly rising wavelengths above 0.
+/// Linear between (wavelength, value) pairs, zero outside. Throws Error(BadData), the message beginning with `what`,
+/// unless the numbers are finite, in pairs, at least one, with strictly rising wavelengths above 0.
 SampledSpectrum piecewiseLinearSpectrum(std::span<const float> pairs, std::string_view what);
 
 /// A text file of such pairs: white space or commas between numbers, # comments. Throws Error(MissingInput) or

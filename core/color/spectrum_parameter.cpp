@@ -11,8 +11,10 @@ namespace {
 class Reader {
 public:
     Reader(const Parameter& p, const SpectrumContext& context, std::string_view owner)
-        : p_(p), context_(context), prefix_(fmt::format("{}: {} of {}", formatPosition(context.files, p.where),
-                                                        quote(p.type + " " + p.name), owner)) {}
+        : p_(p),
+          context_(context),
+          prefix_(fmt::format("{}: {} of {}", formatPosition(context.files, p.where), quote(p.type + " " + p.name),
+                              owner)) {}
 
     const std::string& prefix() const { return prefix_; }
 
@@ -86,8 +88,8 @@ private:
     std::string prefix_;
 };
 
-/// A curve's value for a dielectric: the mean as the eye weights it under D65. Where a curve is 0 (outside the range of its
-/// file) it counts as 1, no border at all.
+/// A curve's value for a dielectric: the mean as the eye weights it under D65. Where a curve is 0 (outside the range of
+/// its file) it counts as 1, no border at all.
 double meanIndex(const SampledSpectrum& curve) {
     const SampledSpectrum& d65 = *findBuiltinSpectrum("stdillum-D65");
     double sum = 0, weights = 0;
@@ -106,7 +108,8 @@ struct IndexPart {
     Rgb numbers;
 };
 
-IndexPart readIndexPart(const Parameter* p, std::string_view copper, const SpectrumContext& context, std::string_view owner) {
+IndexPart readIndexPart(const Parameter* p, std::string_view copper, const SpectrumContext& context,
+                        std::string_view owner) {
     IndexPart part;
     part.isCurve = !p || p->type != "rgb";
     if (!p)
@@ -120,7 +123,8 @@ IndexPart readIndexPart(const Parameter* p, std::string_view copper, const Spect
 
 }  // namespace
 
-Rgb readSpectrumParameter(const Parameter& p, SpectrumRole role, const SpectrumContext& context, std::string_view owner) {
+Rgb readSpectrumParameter(const Parameter& p, SpectrumRole role, const SpectrumContext& context,
+                          std::string_view owner) {
     const Reader reader(p, context, owner);
     const bool isLight = role == SpectrumRole::Illuminant;
     Rgb color;
@@ -133,7 +137,7 @@ Rgb readSpectrumParameter(const Parameter& p, SpectrumRole role, const SpectrumC
                         : reflectanceToRgb(reader.curve(), context.film);
     }
     if (!color.isFinite()) reader.fail("the colour is too large for a float");
-    if (isLight) return color;   // a colour outside the film's space is still that light
+    if (isLight) return color;  // a colour outside the film's space is still that light
     return clamp(color, 0, role == SpectrumRole::Albedo ? 1 : INFINITY);
 }
 
@@ -147,7 +151,8 @@ float readIndexOfRefraction(const Parameter& p, const SpectrumContext& context, 
     else
         index = meanIndex(reader.curve());
     if (index == 0) return 1;
-    if (!(index > 0) || !std::isfinite(float(index))) reader.fail(fmt::format("an index of refraction of {} is not above 0", index));
+    if (!(index > 0) || !std::isfinite(float(index)))
+        reader.fail(fmt::format("an index of refraction of {} is not above 0", index));
     return float(index);
 }
 

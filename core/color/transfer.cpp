@@ -1,6 +1,6 @@
 #include "core/color/transfer.h"
 
-#include "core/base/letter_case.h"
+#include "core/base/text.h"
 
 #include <fmt/format.h>
 
@@ -33,24 +33,31 @@ std::optional<TransferFunction> TransferFunction::parse(std::string_view text) {
 
 float TransferFunction::decode(float encoded) const {
     switch (kind_) {
-    case Kind::Linear: return encoded;
-    case Kind::Srgb: return linearFromSrgb(encoded);
-    case Kind::Gamma: return std::pow(encoded, exponent_);
+        case Kind::Linear:
+            return encoded;
+        case Kind::Srgb:
+            return linearFromSrgb(encoded);
+        case Kind::Gamma:
+            return std::pow(encoded, exponent_);
     }
     return encoded;
 }
 
 std::array<float, 256> TransferFunction::decodeTable() const {
     std::array<float, 256> table;
-    for (int i = 0; i < 256; ++i) table[i] = decode(float(i) / 255.f);
+    for (int i = 0; i < 256; ++i)
+        table[i] = decode(float(i) / 255.f);
     return table;
 }
 
 std::string TransferFunction::name() const {
     switch (kind_) {
-    case Kind::Linear: return "linear";
-    case Kind::Srgb: return "sRGB";
-    case Kind::Gamma: return fmt::format("gamma {}", exponent_);
+        case Kind::Linear:
+            return "linear";
+        case Kind::Srgb:
+            return "sRGB";
+        case Kind::Gamma:
+            return fmt::format("gamma {}", exponent_);
     }
     return {};
 }

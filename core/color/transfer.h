@@ -19,7 +19,8 @@ public:
     static TransferFunction srgb() { return TransferFunction(Kind::Srgb, 1); }
     /// linear = encoded^exponent
     static TransferFunction gamma(float exponent) { return TransferFunction(Kind::Gamma, exponent); }
-    /// "sRGB", "linear" or "gamma x" (x > 0) of texture parameters; the words in any case. Empty where it is none of them.
+    /// "sRGB", "linear" or "gamma x" (x > 0) of texture parameters; the words in any case. Empty where it is none of
+    /// them.
     static std::optional<TransferFunction> parse(std::string_view text);
 
     float decode(float encoded) const;

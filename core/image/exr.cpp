@@ -1,7 +1,6 @@
 #include "core/image/exr.h"
 
 #include "core/base/atomic_file.h"
-#include "core/base/error.h"
 #include "core/image/exr_scan.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -26,13 +25,21 @@
 namespace penumbra {
 namespace {
 
-constexpr int kNoThreads = 0;       // OpenEXR works in the caller's thread
-constexpr int kBlockRows = 16;      // rows that ZIP compresses together
+constexpr int kNoThreads = 0;   // OpenEXR works in the caller's thread
+constexpr int kBlockRows = 16;  // rows that ZIP compresses together
 
-Imath::Box2i boxOf(const PixelWindow& w) { return {{w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}}; }
-PixelWindow windowOf(const Imath::Box2i& b) { return {b.min.x, b.min.y, b.max.x + 1, b.max.y + 1}; }
-Chromaticity chromaticityOf(const Imath::V2f& v) { return {v.x, v.y}; }
-Imath::V2f vectorOf(Chromaticity c) { return {float(c.x), float(c.y)}; }
+Imath::Box2i boxOf(const PixelWindow& w) {
+    return {{w.x0, w.y0}, {w.x1 - 1, w.y1 - 1}};
+}
+PixelWindow windowOf(const Imath::Box2i& b) {
+    return {b.min.x, b.min.y, b.max.x + 1, b.max.y + 1};
+}
+Chromaticity chromaticityOf(const Imath::V2f& v) {
+    return {v.x, v.y};
+}
+Imath::V2f vectorOf(Chromaticity c) {
+    return {float(c.x), float(c.y)};
+}
 
 /// OpenEXR's output, going into an AtomicFile. OpenEXR's destructors swallow exceptions, so the first failure is kept.
 class AtomicStream : public Imf::OStream {
@@ -65,18 +72,22 @@ auto guarded(const std::string& path, ErrorKind kind, const Work& work) {
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        throw Error(ErrorKind::OutOfMemory, path + ": not enough memory for the image");
+        failImage(path, "not enough memory for the image", ErrorKind::OutOfMemory);
     } catch (const std::exception& e) {
-        throw Error(kind, fmt::format("{}: {}", path, e.what()));
+        failImage(path, e.what(), kind);
     }
 }
 
-Imf::PixelType pixelType(ExrChannel::Type type) { return type == ExrChannel::Type::Uint ? Imf::UINT : Imf::FLOAT; }
+Imf::PixelType pixelType(ExrChannel::Type type) {
+    return type == ExrChannel::Type::Uint ? Imf::UINT : Imf::FLOAT;
+}
 
 void insertAttribute(Imf::Header& header, const std::string& name, const std::string& value) {
     header.insert(name, Imf::StringAttribute(value));
 }
-void insertAttribute(Imf::Header& header, const std::string& name, int value) { header.insert(name, Imf::IntAttribute(value)); }
+void insertAttribute(Imf::Header& header, const std::string& name, int value) {
+    header.insert(name, Imf::IntAttribute(value));
+}
 void insertAttribute(Imf::Header& header, const std::string& name, float value) {
     header.insert(name, Imf::FloatAttribute(value));
 }
@@ -89,7 +100,8 @@ void insertAttribute(Imf::Header& header, const std::string& name, const std::ar
 Imf::Header libraryHeader(const ExrHeader& header) {
     Imf::Header out(boxOf(header.displayWindow), boxOf(header.dataWindow));
     out.compression() = Imf::ZIP_COMPRESSION;
-    for (const ExrChannel& channel : header.channels) out.channels().insert(channel.name, Imf::Channel(pixelType(channel.type)));
+    for (const ExrChannel& channel : header.channels)
+        out.channels().insert(channel.name, Imf::Channel(pixelType(channel.type)));
     if (const ColorSpace* s = header.colorSpace)
         Imf::addChromaticities(out, {vectorOf(s->red), vectorOf(s->green), vectorOf(s->blue), vectorOf(s->white)});
     for (const auto& [name, value] : header.attributes)
@@ -168,7 +180,8 @@ void readAttributes(const Imf::Header& from, ExrHeader& to) {
 const ColorSpace* colorSpaceIn(const Imf::Header& header) {
     if (!Imf::hasChromaticities(header)) return nullptr;
     const Imf::Chromaticities c = Imf::chromaticities(header);
-    return findColorSpace(chromaticityOf(c.red), chromaticityOf(c.green), chromaticityOf(c.blue), chromaticityOf(c.white));
+    return findColorSpace(chromaticityOf(c.red), chromaticityOf(c.green), chromaticityOf(c.blue),
+                          chromaticityOf(c.white));
 }
 
 /// Opens a file whose headers have been found plausible.
@@ -180,7 +193,7 @@ Imf::InputFile openExr(const std::string& path, const ImageLimits& limits) {
 void refuseSubsampled(const std::string& path, const Imf::ChannelList& channels) {
     for (auto c = channels.begin(); c != channels.end(); ++c)
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
-            throw Error(ErrorKind::BadData, fmt::format("{}: channel {} is subsampled, which is not supported", path, quote(c.name())));
+            failImage(path, fmt::format("channel {} is subsampled, which is not supported", quote(c.name())));
 }
 
 /// The channels that make a picture, in the order of Image: R G B [A], or one.
@@ -202,7 +215,7 @@ std::vector<std::string> pictureChannels(const Imf::ChannelList& channels, const
         if (const auto names = colors(all.back().substr(0, dot + 1))) return *names;
     }
     if (all.size() == 1) return all;
-    throw Error(ErrorKind::BadData, fmt::format("{}: among its {} channels are neither R, G and B nor Y", path, all.size()));
+    failImage(path, fmt::format("among its {} channels are neither R, G and B nor Y", all.size()));
 }
 
 }  // namespace
@@ -243,8 +256,12 @@ ExrFile readExr(const std::string& path, const ImageLimits& limits) {
         for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
             const bool isUint = c.channel().type == Imf::UINT;
             file.header.channels.push_back({c.name(), isUint ? ExrChannel::Type::Uint : ExrChannel::Type::Float});
-            void* data = isUint ? static_cast<void*>(file.uints.emplace_back(count).data()) : file.floats.emplace_back(count).data();
-            if (isUint) file.floats.emplace_back(); else file.uints.emplace_back();
+            void* data = isUint ? static_cast<void*>(file.uints.emplace_back(count).data())
+                                : file.floats.emplace_back(count).data();
+            if (isUint)
+                file.floats.emplace_back();
+            else
+                file.uints.emplace_back();
             frame.insert(c.name(), Imf::Slice::Make(isUint ? Imf::UINT : Imf::FLOAT, data, header.dataWindow()));
         }
         in.setFrameBuffer(frame);
@@ -271,7 +288,8 @@ Image readExrImage(const std::string& path, const ImageLimits& limits) {
         in.setFrameBuffer(frame);
         in.readPixels(window.y0, window.y1 - 1);
         const ColorSpace* space = colorSpaceIn(header);
-        return Image(window.width(), window.height(), int(names.size()), std::move(pixels), space ? *space : srgbColorSpace());
+        return Image(window.width(), window.height(), int(names.size()), std::move(pixels),
+                     space ? *space : srgbColorSpace());
     });
 }
 

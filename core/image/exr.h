@@ -25,27 +25,27 @@ struct PixelWindow {
 
 struct ExrChannel {
     std::string name;
-    enum class Type { Float, Uint } type = Type::Float;   ///< both 32 bits
+    enum class Type { Float, Uint } type = Type::Float;  ///< both 32 bits
 };
-using ExrAttribute = std::variant<std::string, int, float, std::array<float, 16>>;   ///< the array: a matrix, by rows
+using ExrAttribute = std::variant<std::string, int, float, std::array<float, 16>>;  ///< the array: a matrix, by rows
 
 struct ExrHeader {
     PixelWindow dataWindow, displayWindow;
     std::vector<ExrChannel> channels;
-    const ColorSpace* colorSpace = nullptr;   ///< written as chromaticities where given
+    const ColorSpace* colorSpace = nullptr;  ///< written as chromaticities where given
     std::vector<std::pair<std::string, ExrAttribute>> attributes;
 };
 
 /// Where the pixels of a block of rows go: one plane of `rows * width` 32-bit values per channel, in the order of
 /// ExrHeader::channels.
 struct ExrBlock {
-    int firstRow = 0, rows = 0;                 ///< firstRow in the coordinates of the data window
-    std::vector<std::span<float>> floats;       ///< indexed like the channels; empty for Uint channels
-    std::vector<std::span<std::uint32_t>> uints;   ///< indexed like the channels; empty for Float channels
+    int firstRow = 0, rows = 0;                   ///< firstRow in the coordinates of the data window
+    std::vector<std::span<float>> floats;         ///< indexed like the channels; empty for Uint channels
+    std::vector<std::span<std::uint32_t>> uints;  ///< indexed like the channels; empty for Float channels
 };
 
-/// Writes a scan line EXR with lossless ZIP. `fill` is called for blocks of at most 16 rows, top to bottom, from this thread;
-/// only one block is in memory at a time. The same input gives the same bytes.
+/// Writes a scan line EXR with lossless ZIP. `fill` is called for blocks of at most 16 rows, top to bottom, from this
+/// thread; only one block is in memory at a time. The same input gives the same bytes.
 void writeExr(const std::string& path, const ExrHeader& header, const std::function<void(const ExrBlock&)>& fill);
 
 /// All channels of a single-part, flat EXR file, for tools and tests; half channels become floats.
@@ -58,7 +58,8 @@ struct ExrFile {
 };
 ExrFile readExr(const std::string& path, const ImageLimits& limits = {});
 
-/// The picture in an EXR file: R, G, B and A where there is one (of the first layer that has them), or a single channel.
+/// The picture in an EXR file: R, G, B and A where there is one (of the first layer that has them), or a single
+/// channel.
 Image readExrImage(const std::string& path, const ImageLimits& limits = {});
 
 }  // namespace penumbra

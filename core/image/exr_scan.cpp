@@ -1,7 +1,5 @@
 #include "core/image/exr_scan.h"
 
-#include "core/base/error.h"
-
 #include <fmt/format.h>
 
 #include <cstring>
@@ -39,9 +37,7 @@ public:
         return word;
     }
     bool atEnd() const { return at_ == bytes_.size(); }
-    [[noreturn]] void fail(const std::string& reason) const {
-        throw Error(ErrorKind::BadData, path_ + ": " + reason);
-    }
+    [[noreturn]] void fail(const std::string& reason) const { failImage(path_, reason); }
 
 private:
     std::string_view bytes_;
@@ -53,7 +49,7 @@ struct Part {
     std::int64_t width = 0, height = 0;
     std::uint64_t bytesPerPixel = 0;
     std::uint8_t compression = 0;
-    std::uint32_t tileWidth = 0, tileHeight = 0, levels = 0;   // levels: 0 one, 1 mip, 2 rip
+    std::uint32_t tileWidth = 0, tileHeight = 0, levels = 0;  // levels: 0 one, 1 mip, 2 rip
 };
 
 /// Bytes of one pixel in all channels.
@@ -62,7 +58,7 @@ std::uint64_t readChannels(Cursor in) {
     std::uint64_t bytes = 0;
     while (!in.text().empty()) {
         bytes += in.number<std::uint32_t>() == kHalf ? 2 : 4;
-        in.take(12);   // linearity, sampling
+        in.take(12);  // linearity, sampling
     }
     return bytes;
 }
@@ -74,7 +70,8 @@ void readAttribute(std::string_view name, std::string_view type, Cursor value, P
         value.take(4 * w * h);
     } else if (name == "dataWindow") {
         std::int64_t box[4];
-        for (std::int64_t& edge : box) edge = value.number<std::int32_t>();
+        for (std::int64_t& edge : box)
+            edge = value.number<std::int32_t>();
         part.width = box[2] - box[0] + 1;
         part.height = box[3] - box[1] + 1;
     } else if (name == "channels") {
@@ -103,7 +100,8 @@ std::optional<Part> readHeader(Cursor& in, const std::string& path) {
 
 void checkPart(const Part& part, const std::string& path, std::uint64_t fileBytes, const ImageLimits& limits) {
     constexpr int kDwaa = 8;
-    const double expansion = part.compression >= kDwaa ? 64 * kMostExpansion : kMostExpansion;   // one value of 64 per block
+    const double expansion =
+        part.compression >= kDwaa ? 64 * kMostExpansion : kMostExpansion;  // one value of 64 per block
     const auto check = [&](std::int64_t width, std::int64_t height) {
         checkImageSize(path, width, height, part.bytesPerPixel, fileBytes, limits, expansion);
     };
@@ -111,10 +109,10 @@ void checkPart(const Part& part, const std::string& path, std::uint64_t fileByte
     if (part.tileWidth == 0) return;
     const std::int64_t across = (part.width + part.tileWidth - 1) / part.tileWidth;
     const std::int64_t down = (part.height + part.tileHeight - 1) / part.tileHeight;
-    check(across * part.tileWidth, part.tileHeight);   // OpenEXR's buffer: a whole row of tiles
+    check(across * part.tileWidth, part.tileHeight);  // OpenEXR's buffer: a whole row of tiles
     const double tiles = double(across) * double(down) * (part.levels == 2 ? 4 : part.levels == 1 ? 2 : 1);
-    if (tiles * 8 > double(fileBytes) * 2 + 65536)   // eight bytes each in the offset table; levels are counted too high
-        throw Error(ErrorKind::BadData, fmt::format("{}: the EXR file claims {:.0f} tiles in {} bytes", path, tiles, fileBytes));
+    if (tiles * 8 > double(fileBytes) * 2 + 65536)  // eight bytes each in the offset table; levels are counted too high
+        failImage(path, fmt::format("the EXR file claims {:.0f} tiles in {} bytes", tiles, fileBytes));
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // Image: pixels in memory, as a file gave them.
 //
-// Conventions: interleaved, row 0 is the top, channels 1 (grey), 3 (RGB) or 4 (RGB and alpha, not premultiplied where the
-// file's format keeps it so). Eight-bit files stay bytes with the transfer function that decodes them, so that textures stay
-// small; all else is float and already linear. Colours are in the image's own colour space.
-// Thread safety: immutable use is safe from any number of threads.
+// Conventions: interleaved, row 0 is the top, channels 1 (grey), 3 (RGB) or 4 (RGB and alpha, not premultiplied where
+// the file's format keeps it so). Eight-bit files stay bytes with the transfer function that decodes them, so that
+// textures stay small; all else is float and already linear. Colours are in the image's own colour space. Thread
+// safety: immutable use is safe from any number of threads.
 #pragma once
 
 #include "core/color/color_space.h"
@@ -31,11 +31,13 @@ public:
     bool isByte() const { return !bytes_.empty(); }
     bool hasAlpha() const { return channels_ == 4; }
     const ColorSpace& colorSpace() const { return *space_; }
-    TransferFunction encoding() const { return encoding_; }   ///< of the bytes; linear for floats
+    TransferFunction encoding() const { return encoding_; }  ///< of the bytes; linear for floats
     std::size_t memoryBytes() const { return bytes_.size() + floats_.size() * sizeof(float); }
 
-    std::span<const std::uint8_t> bytes() const { return bytes_; }    ///< empty for float images
-    std::span<const float> floats() const { return floats_; }         ///< empty for byte images
+    std::span<const std::uint8_t> bytes() const& { return bytes_; }  ///< empty for float images
+    std::span<const float> floats() const& { return floats_; }       ///< empty for byte images
+    void bytes() && = delete;                                        // views would outlive a temporary
+    void floats() && = delete;
 
     /// The decoded, linear value. REQUIRES: inside the image.
     float value(int x, int y, int channel) const {
@@ -44,7 +46,10 @@ public:
     }
     /// Linear RGB, grey replicated.
     Rgb rgb(int x, int y) const {
-        if (channels_ == 1) { const float v = value(x, y, 0); return {v, v, v}; }
+        if (channels_ == 1) {
+            const float v = value(x, y, 0);
+            return {v, v, v};
+        }
         return {value(x, y, 0), value(x, y, 1), value(x, y, 2)};
     }
     /// What byte v stands for. REQUIRES: isByte().

@@ -1,7 +1,7 @@
 #include "core/image/image_io.h"
 
 #include "core/base/atomic_file.h"
-#include "core/base/error.h"
+#include "core/image/essentials.h"
 #include "core/image/pfm.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -17,43 +17,76 @@ namespace {
 
 const char* oiioName(ImageFormat format) {
     switch (format) {
-    case ImageFormat::Png: return "png";
-    case ImageFormat::Jpeg: return "jpeg";
-    case ImageFormat::Hdr: return "hdr";
-    case ImageFormat::Tiff: return "tiff";
-    case ImageFormat::Tga: return "targa";
-    case ImageFormat::Exr:
-    case ImageFormat::Pfm: break;   // read without OpenImageIO
+        case ImageFormat::Png:
+            return "png";
+        case ImageFormat::Jpeg:
+            return "jpeg";
+        case ImageFormat::Hdr:
+            return "hdr";
+        case ImageFormat::Tiff:
+            return "tiff";
+        case ImageFormat::Tga:
+            return "targa";
+        case ImageFormat::Exr:
+        case ImageFormat::Pfm:
+            break;  // read without OpenImageIO
     }
     return "";
 }
 
-/// OpenImageIO's global settings that concern us: no threads of its own, and an error counts even where nobody asks for it.
+/// OpenImageIO's global settings that concern us: no threads of its own, and an error counts even where nobody asks for
+/// it.
 void configureLibrary() {
     static const bool once = [] { return OIIO::attribute("threads", 1) && OIIO::attribute("log_times", 0); }();
     (void)once;
 }
 
 std::string firstLine(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
+    while (!text.empty() && (text.back() == '\n' || text.back() == '\r'))
+        text.pop_back();
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-    throw Error(ErrorKind::BadData, fmt::format("{}: {}", path, reason.empty() ? "the image is damaged" : firstLine(reason)));
+    failImage(path, reason.empty() ? "the image is damaged" : firstLine(reason));
 }
 
-std::unique_ptr<OIIO::ImageInput> openInput(const std::string& path, ImageFormat format) {
-    // By format, never by path: open(path) would try other readers, whatever we have found the file to be.
-    std::unique_ptr<OIIO::ImageInput> in = OIIO::ImageInput::create(oiioName(format));
-    if (!in) refuse(path, OIIO::geterror());
-    OIIO::ImageSpec spec, wishes;
-    wishes.attribute("oiio:UnassociatedAlpha", 1);   // colours as stored, not multiplied by alpha
-    in->threads(1);
-    if (!in->open(path, spec, wishes)) refuse(path, in->geterror());
-    return in;
-}
+/// An open file. PNG and JPEG are read from memory, from which the parts that no picture needs have been taken away.
+class Input {
+public:
+    Input(const std::string& path, ImageFormat format, const ImageLimits& limits) : path_(path) {
+        if (format == ImageFormat::Png) bytes_ = pngEssentials(path, limits);
+        if (format == ImageFormat::Jpeg) bytes_ = jpegEssentials(path);
+        // By format, never by path: open(path) would try other readers, whatever we have found the file to be.
+        in_ = OIIO::ImageInput::create(oiioName(format));
+        if (!in_) refuse(path, OIIO::geterror());
+        if (!bytes_.empty()) {
+            memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes_.data(), bytes_.size());
+            in_->set_ioproxy(memory_.get());
+        }
+        OIIO::ImageSpec spec, wishes;
+        wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
+        in_->threads(1);
+        if (!in_->open(path, spec, wishes)) refuse(path, in_->geterror());
+    }
+
+    const OIIO::ImageSpec& spec() const { return in_->spec(); }
+
+    /// The first channels of all pixels.
+    template <class T>
+    std::vector<T> pixels(OIIO::TypeDesc type, int channels) {
+        std::vector<T> out(std::size_t(spec().width) * spec().height * channels);
+        if (!in_->read_image(0, 0, 0, channels, type, out.data())) refuse(path_, in_->geterror());
+        return out;
+    }
+
+private:
+    const std::string& path_;
+    std::string bytes_;
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // before in_, which uses it to its end
+    std::unique_ptr<OIIO::ImageInput> in_;
+};
 
 /// How many of the file's channels make the image: grey with alpha gives grey, alpha is kept of PNG only.
 int keptChannels(ImageFormat format, int inFile) {
@@ -61,33 +94,27 @@ int keptChannels(ImageFormat format, int inFile) {
     return inFile == 4 && format == ImageFormat::Png ? 4 : 3;
 }
 
-template <class T>
-std::vector<T> readPixels(OIIO::ImageInput& in, const std::string& path, OIIO::TypeDesc type, int channels) {
-    const OIIO::ImageSpec& spec = in.spec();
-    std::vector<T> pixels(std::size_t(spec.width) * spec.height * channels);
-    if (!in.read_image(0, 0, 0, channels, type, pixels.data())) refuse(path, in.geterror());
-    return pixels;
-}
-
 Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const ReadImageOptions& options) {
     configureLibrary();
-    const std::unique_ptr<OIIO::ImageInput> in = openInput(path, file.format);
-    const OIIO::ImageSpec& spec = in->spec();
+    Input in(path, file.format, options.limits);
+    const OIIO::ImageSpec& spec = in.spec();
     if (spec.nchannels < 1 || spec.depth > 1 || spec.deep) refuse(path, "not a flat picture");
 
     const int channels = keptChannels(file.format, spec.nchannels);
     const bool isByte = spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeInt8;
     const std::uint64_t fileBytes = spec.format.size() * spec.nchannels;
-    checkImageSize(path, spec.width, spec.height, std::max<std::uint64_t>(fileBytes, isByte ? 1 : channels * sizeof(float)),
-                   file.bytes, options.limits, file.format == ImageFormat::Hdr ? 4 * kMostExpansion : kMostExpansion);
+    checkImageSize(path, spec.width, spec.height,
+                   std::max<std::uint64_t>(fileBytes, isByte ? 1 : channels * sizeof(float)), file.bytes,
+                   options.limits, file.format == ImageFormat::Hdr ? 4 * kMostExpansion : kMostExpansion);
 
     const TransferFunction encoding = file.format == ImageFormat::Png ? options.pngEncoding : TransferFunction::srgb();
     if (isByte)
-        return Image(spec.width, spec.height, channels, readPixels<std::uint8_t>(*in, path, OIIO::TypeUInt8, channels), encoding);
+        return Image(spec.width, spec.height, channels, in.pixels<std::uint8_t>(OIIO::TypeUInt8, channels), encoding);
     const bool isLinear = spec.format.is_floating_point();
-    std::vector<float> pixels = readPixels<float>(*in, path, OIIO::TypeFloat, channels);
+    std::vector<float> pixels = in.pixels<float>(OIIO::TypeFloat, channels);
     if (!isLinear)
-        for (float& v : pixels) v = encoding.decode(v);
+        for (float& v : pixels)
+            v = encoding.decode(v);
     return Image(spec.width, spec.height, channels, std::move(pixels));
 }
 
@@ -95,24 +122,24 @@ Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const 
 template <class T>
 std::vector<T> quantise(std::span<const float> values, float largest) {
     std::vector<T> out(values.size());
-    std::transform(values.begin(), values.end(), out.begin(), [&](float v) {
-        return T(v > 0 ? std::floor(std::min(v, 1.f) * largest + 0.5f) : 0.f);
-    });
+    std::transform(values.begin(), values.end(), out.begin(),
+                   [&](float v) { return T(v > 0 ? std::floor(std::min(v, 1.f) * largest + 0.5f) : 0.f); });
     return out;
 }
 
 struct Encoder {
     const char* format;
-    int bits;   ///< 32: float
+    int bits;  ///< 32: float
 };
 
-std::vector<unsigned char> encode(const std::string& path, const Encoder& encoder, OIIO::ImageSpec spec, const void* pixels) {
+std::vector<unsigned char> encode(const std::string& path, const Encoder& encoder, OIIO::ImageSpec spec,
+                                  const void* pixels) {
     configureLibrary();
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput proxy(bytes);
     const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(encoder.format);
     const auto fail = [&](const std::string& reason) {
-        throw Error(ErrorKind::CannotWrite, fmt::format("{}: cannot encode: {}", path, firstLine(reason)));
+        failImage(path, "cannot encode: " + firstLine(reason), ErrorKind::CannotWrite);
     };
     if (!out) fail(OIIO::geterror());
     out->threads(1);
@@ -134,7 +161,8 @@ std::vector<unsigned char> encodeImage(const std::string& path, const Encoder& e
     }
     if (std::string_view(encoder.format) != "hdr") return encode(path, encoder, spec, rgb.data());
     std::vector<float> positive(rgb.begin(), rgb.end());
-    for (float& v : positive) v = v > 0 ? std::min(v, 1e30f) : 0;   // no sign, no infinity, no not-a-number in RGBE
+    for (float& v : positive)
+        v = v > 0 ? std::min(v, 1e30f) : 0;  // no sign, no infinity, no not-a-number in RGBE
     return encode(path, encoder, spec, positive.data());
 }
 
@@ -157,7 +185,7 @@ Image readImage(const std::string& path, const ReadImageOptions& options) {
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {
-        throw Error(ErrorKind::OutOfMemory, path + ": not enough memory for the image");
+        failImage(path, "not enough memory for the image", ErrorKind::OutOfMemory);
     } catch (const std::exception& e) {
         refuse(path, e.what());
     }
@@ -168,15 +196,20 @@ void writeImage(const std::string& path, int width, int height, std::span<const 
     const std::string extension = extensionOf(path);
     const Encoder encoder = encoderFor(extension, options);
     if (*encoder.format == '\0')
-        throw Error(ErrorKind::Usage, fmt::format("{}: cannot write images of extension {}; known: png, jpg, jpeg, hdr, pfm, tif, tiff",
-                                                  path, quote(extension)));
-    AtomicFile file(path);   // first, so that a path that cannot be written is known before the work
+        failImage(path,
+                  fmt::format("cannot write images of extension {}; known: png, jpg, jpeg, hdr, pfm, tif, tiff",
+                              quote(extension)),
+                  ErrorKind::Usage);
+    AtomicFile file(path);  // first, so that a path that cannot be written is known before the work
     if (extension == "pfm") {
         file.write(encodePfm(width, height, rgb));
     } else {
         OIIO::ImageSpec spec(width, height, 3, OIIO::TypeFloat);
-        spec.attribute("Compression", encoder.format == std::string_view("jpeg") ? fmt::format("jpeg:{}", options.jpegQuality) : "zip");
+        spec.attribute("Compression", encoder.format == std::string_view("jpeg")
+                                          ? fmt::format("jpeg:{}", options.jpegQuality)
+                                          : "zip");
         spec.attribute("jpeg:subsampling", "4:4:4");
+        spec.attribute("DateTime", "    :  :     :  :  ");  // Exif's "unknown", or TIFF would get the clock's
         const std::vector<unsigned char> bytes = encodeImage(path, encoder, spec, rgb);
         file.write(bytes.data(), bytes.size());
     }

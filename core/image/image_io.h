@@ -1,12 +1,12 @@
 // Image files in and out. image_io.cpp is the only file that knows OpenImageIO (exr.cpp is that for OpenEXR).
 //
-// Reading: a file is what its first bytes say (EXR, PNG, JPEG, HDR, TIFF, PFM), never what its name says; TGA, which has
-// no magic, by its extension and a valid header. All else is refused. Sizes are checked before memory is allocated,
+// Reading: a file is what its first bytes say (EXR, PNG, JPEG, HDR, TIFF, PFM), never what its name says; TGA, which
+// has no magic, by its extension and a valid header. All else is refused. Sizes are checked before memory is allocated,
 // also against what a file of its size could hold at all.
 // Writing: every file appears whole or not at all (core/base/atomic_file.h); the same input gives the same bytes.
-// Errors: Error(MissingInput, BadData, CannotCreate, CannotWrite), the message beginning with the path; the exceptions of
-// the libraries end here, and they neither print nor start threads.
-// Thread safety: all functions may be called from several threads at once.
+// Errors: Error(MissingInput, BadData, CannotCreate, CannotWrite), the message beginning with the path; the exceptions
+// of the libraries end here, and they neither print nor start threads. Thread safety: all functions may be called from
+// several threads at once.
 #pragma once
 
 #include "core/image/exr.h"
@@ -15,23 +15,24 @@
 namespace penumbra {
 
 struct ReadImageOptions {
-    /// How PNG values decode (8 and 16 bit, alpha included). Other 8-bit formats are always sRGB; EXR, PFM and HDR linear.
+    /// How PNG values decode (8 and 16 bit, alpha included). Other 8-bit formats are always sRGB; EXR, PFM and HDR
+    /// linear.
     TransferFunction pngEncoding = TransferFunction::srgb();
     ImageLimits limits;
 };
 
-/// Reads a picture or texture. Grey with alpha becomes grey; of more than four channels the first three are taken; alpha is
-/// kept of PNG and EXR only, as the pbrt format has it. TIFF integers are sRGB, TIFF floats linear.
+/// Reads a picture or texture. Grey with alpha becomes grey; of more than four channels the first three are taken;
+/// alpha is kept of PNG and EXR only, as the pbrt format has it. TIFF integers are sRGB, TIFF floats linear.
 Image readImage(const std::string& path, const ReadImageOptions& options = {});
 
 struct WriteImageOptions {
-    int bits = 8;             ///< of PNG and TIFF: 8 or 16; TIFF also 32 (float)
-    int jpegQuality = 95;     ///< 1 to 100
+    int bits = 8;          ///< of PNG and TIFF: 8 or 16; TIFF also 32 (float)
+    int jpegQuality = 95;  ///< 1 to 100
 };
 
-/// Writes interleaved RGB in the format that the extension names: png, jpg, jpeg, hdr, pfm, tif, tiff. PNG, JPEG and integer
-/// TIFF take values already encoded for display, in [0, 1], which are clamped and rounded; HDR, PFM and float TIFF take
-/// linear values (HDR has no negative ones: they become 0). Throws Error(Usage) for another extension.
+/// Writes interleaved RGB in the format that the extension names: png, jpg, jpeg, hdr, pfm, tif, tiff. PNG, JPEG and
+/// integer TIFF take values already encoded for display, in [0, 1], which are clamped and rounded; HDR, PFM and float
+/// TIFF take linear values (HDR has no negative ones: they become 0). Throws Error(Usage) for another extension.
 void writeImage(const std::string& path, int width, int height, std::span<const float> rgb,
                 const WriteImageOptions& options = {});
 

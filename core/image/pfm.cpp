@@ -1,7 +1,5 @@
 #include "core/image/pfm.h"
 
-#include "core/base/error.h"
-
 #include <fmt/format.h>
 
 #include <bit>
@@ -12,10 +10,6 @@
 
 namespace penumbra {
 namespace {
-
-[[noreturn]] void fail(const std::string& path, const std::string& reason) {
-    throw Error(ErrorKind::BadData, path + ": " + reason);
-}
 
 /// A word of the header and the single white space after it.
 std::string readWord(std::istream& in, const std::string& path) {
@@ -30,7 +24,7 @@ std::string readWord(std::istream& in, const std::string& path) {
         if (!space) word.push_back(char(c));
         if (word.size() > kLongest) break;
     }
-    fail(path, "the PFM header is cut short or damaged");
+    failImage(path, "the PFM header is cut short or damaged");
 }
 
 template <class T>
@@ -39,12 +33,13 @@ T readNumber(std::istream& in, const std::string& path, const char* what) {
     T value{};
     const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (status != std::errc() || end != word.data() + word.size())
-        fail(path, fmt::format("the {} in the PFM header is {}", what, quote(word)));
+        failImage(path, fmt::format("the {} in the PFM header is {}", what, quote(word)));
     return value;
 }
 
 void swapBytes(std::span<float> values) {
-    for (float& v : values) v = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(v)));
+    for (float& v : values)
+        v = std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(v)));
 }
 
 }  // namespace
@@ -54,18 +49,20 @@ Image readPfm(const std::string& path, std::uint64_t fileBytes, const ImageLimit
     const int channels = readWord(in, path) == "PF" ? 3 : 1;
     const int width = readNumber<int>(in, path, "width"), height = readNumber<int>(in, path, "height");
     const float scale = readNumber<float>(in, path, "scale");
-    if (!std::isfinite(scale) || scale == 0) fail(path, fmt::format("the scale in the PFM header is {}", scale));
+    if (!std::isfinite(scale) || scale == 0) failImage(path, fmt::format("the scale in the PFM header is {}", scale));
     checkImageSize(path, width, height, channels * sizeof(float), fileBytes, limits, 1);
 
     const std::size_t rowValues = std::size_t(width) * channels;
-    if (fileBytes - std::uint64_t(in.tellg()) < rowValues * height * sizeof(float)) fail(path, "the PFM file is cut short");
+    if (fileBytes - std::uint64_t(in.tellg()) < rowValues * height * sizeof(float))
+        failImage(path, "the PFM file is cut short");
     std::vector<float> values(rowValues * height);
     for (int y = height - 1; y >= 0; --y)
         in.read(reinterpret_cast<char*>(values.data() + y * rowValues), std::streamsize(rowValues * sizeof(float)));
-    if (!in) fail(path, "the PFM file is cut short");
+    if (!in) failImage(path, "the PFM file is cut short");
     if (scale > 0) swapBytes(values);
     if (const float factor = std::abs(scale); factor != 1)
-        for (float& v : values) v *= factor;
+        for (float& v : values)
+            v *= factor;
     return Image(width, height, channels, std::move(values));
 }
 

@@ -1,7 +1,7 @@
 // Portable float maps: linear RGB or grey, 32-bit floats, bottom row first.
 //
-// Source: Debevec's description of the format. The sign of the scale gives the byte order (negative: little-endian), its
-// size multiplies the values.
+// Source: Debevec's description of the format. The sign of the scale gives the byte order (negative: little-endian),
+// its size multiplies the values.
 #pragma once
 
 #include "core/image/file_format.h"
