@@ -28,7 +28,7 @@ struct BuildOptions {
     int samplesOverride = 0;                        ///< samples per pixel (--spp)
     int width = 0, height = 0;                      ///< both or none (--resolution); the crop keeps its fraction of the picture
     std::optional<std::uint32_t> seed;
-    std::string sampler, integrator;                ///< types; the parameters of the file's directive stay where types agree
+    std::string sampler, integrator;                ///< types; of the file's directive then remain samples per pixel and maxdepth
     IntersectionMode intersection = IntersectionMode::Robust;
 
     std::optional<int> maxDepth;
@@ -39,8 +39,5 @@ struct BuildOptions {
 };
 
 Scene buildScene(SceneDescription description, const BuildOptions& options, Warnings& warnings);
-
-/// The names that BuildOptions::integrator may have, in the order that help texts show them.
-std::span<const std::string> integratorNames();
 
 }  // namespace penumbra

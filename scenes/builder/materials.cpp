@@ -1,0 +1,181 @@
+#include "scenes/builder/materials.h"
+
+#include "scenes/builder/material_input.h"
+
+#include <fmt/format.h>
+
+namespace penumbra::builder {
+namespace {
+
+/// What a parameter of a material that is not there yet becomes in the one that stands in for it.
+struct Renamed {
+    const char* from;
+    const char* to;
+};
+
+/// The format's materials that are not there yet.
+struct MaterialStandIn {
+    const char* name;
+    const char* ours;
+    std::vector<Renamed> parameters;
+    std::vector<Parameter> defaults;   ///< where they differ from those of the stand-in
+};
+
+Parameter floatParameter(std::string name, float value) {
+    return {.type = "float", .name = std::move(name), .where = {}, .values = std::vector<float>{value}, .colorSpace = {}};
+}
+Parameter greyParameter(std::string name, float value) {
+    return {.type = "rgb", .name = std::move(name), .where = {}, .values = std::vector<float>{value, value, value}, .colorSpace = "srgb"};
+}
+
+const std::vector<MaterialStandIn>& materialStandIns() {
+    static const std::vector<MaterialStandIn> table{
+        {"coatedconductor",
+         "conductor",
+         {{"conductor.eta", "eta"},
+          {"conductor.k", "k"},
+          {"reflectance", "reflectance"},
+          {"conductor.roughness", "roughness"},
+          {"conductor.uroughness", "uroughness"},
+          {"conductor.vroughness", "vroughness"},
+          {"remaproughness", "remaproughness"}},
+         {}},
+        {"thindielectric", "interface", {}, {}},
+        {"diffusetransmission", "diffuse", {{"reflectance", "reflectance"}}, {greyParameter("reflectance", 0.25f)}},
+        {"subsurface",
+         "dielectric",
+         {{"eta", "eta"},
+          {"roughness", "roughness"},
+          {"uroughness", "uroughness"},
+          {"vroughness", "vroughness"},
+          {"remaproughness", "remaproughness"}},
+         {floatParameter("eta", 1.33f)}},
+        {"hair", "diffuse", {{"reflectance", "reflectance"}, {"color", "reflectance"}}, {greyParameter("reflectance", 0.25f)}},
+        {"measured", "diffuse", {}, {}},
+    };
+    return table;
+}
+
+const MaterialStandIn* findStandIn(const std::string& name) {
+    const auto& table = materialStandIns();
+    const auto found = std::find_if(table.begin(), table.end(), [&](const MaterialStandIn& s) { return name == s.name; });
+    return found == table.end() ? nullptr : &*found;
+}
+
+bool isOurs(std::string_view type) {
+    const std::vector<std::string> names = pluginNames(MaterialTypes{});
+    return std::find(names.begin(), names.end(), type) != names.end();
+}
+
+/// "" and "none" are old words for "interface".
+std::string canonicalType(const std::string& type) { return type.empty() || type == "none" ? "interface" : type; }
+
+void checkType(const Entity& entity, const BuildContext& context) {
+    const std::string type = canonicalType(entity.type);
+    if (type == "mix" || isOurs(type) || findStandIn(type)) return;
+    std::vector<std::string> known = pluginNames(MaterialTypes{});
+    known.emplace_back("mix");
+    for (const MaterialStandIn& s : materialStandIns()) known.emplace_back(s.name);
+    context.fail(entity.where, "unknown material " + quote(entity.type) + suggestion(entity.type, known));
+}
+
+Entity standInFor(const Entity& entity, const MaterialStandIn& standIn) {
+    Entity out{standIn.ours, {}, entity.where};
+    for (const Parameter& p : standIn.defaults) {
+        out.parameters.add(p);
+        out.parameters.all().back().where = entity.where;
+    }
+    for (const Parameter& p : entity.parameters.all())
+        for (const Renamed& name : standIn.parameters)
+            if (p.name == name.from) {
+                // Of another type than the default, it would not replace it.
+                std::erase_if(out.parameters.all(), [&](const Parameter& q) { return q.name == name.to; });
+                out.parameters.add(p);
+                out.parameters.all().back().name = name.to;
+            }
+    return out;
+}
+
+/// Whether the x axis of the shading frame matters to a material.
+bool isAnisotropic(const MaterialTable& table, MaterialHandle handle) {
+    bool result = false;
+    dispatch(MaterialTypes{}, handle.tag, [&]<class M>() {
+        if constexpr (std::is_base_of_v<RoughnessInputs, M>) {
+            const RoughnessInputs& m = table.rows<M>()[handle.row];
+            const ScalarInput &u = m.uRoughness, &v = m.vRoughness;
+            result = u.texture != v.texture || (u.texture == kNoTexture && u.constant != v.constant);
+        }
+    });
+    return result;
+}
+
+}  // namespace
+
+MaterialLibrary::MaterialLibrary(const SceneDescription& scene, BuildContext& context, TextureLibrary& textures, MaterialTable& table)
+    : scene_(scene), context_(context), textures_(textures), table_(table) {
+    for (const Entity& m : scene.materials) checkType(m, context);
+    for (std::size_t i = 0; i < scene.namedMaterials.size(); ++i) {
+        checkType(scene.namedMaterials[i], context);
+        names_[scene.namedMaterials[i].name] = i;
+    }
+}
+
+SceneMaterial MaterialLibrary::get(const MaterialReference& reference) {
+    if (!reference.name.empty() || reference.index < 0) return getNamed(reference.name, reference.where);
+    if (const auto found = unnamed_.find(reference.index); found != unnamed_.end()) return found->second;
+    const Entity& entity = scene_.materials[std::size_t(reference.index)];
+    return unnamed_[reference.index] = make(entity, ownerName("material", entity.type));
+}
+
+SceneMaterial MaterialLibrary::getNamed(const std::string& name, SourcePosition where) {
+    const auto found = names_.find(name);
+    if (found == names_.end()) {
+        std::vector<std::string> known;
+        for (const auto& entry : names_) known.push_back(entry.first);
+        context_.fail(where, "unknown material " + quote(name) + suggestion(name, known));
+    }
+    const auto [place, isNew] = named_.try_emplace(found->second);
+    if (isNew) place->second = make(scene_.namedMaterials[found->second], ownerName("material", name));
+    else if (!place->second) context_.fail(where, "the material " + quote(name) + " refers to itself");
+    return *place->second;
+}
+
+SceneMaterial MaterialLibrary::make(const Entity& entity, const std::string& owner) {
+    if (entity.type == "mix" && !isOurs("mix")) return makeMix(entity, owner);
+    const MaterialStandIn* standIn = findStandIn(entity.type);
+    if (!standIn || isOurs(entity.type)) return makeOurs(entity, owner);
+    context_.warnOnce("material " + entity.type, entity.where,
+                      fmt::format("the material '{}' is not there yet; '{}' stands in for it", standIn->name, standIn->ours));
+    entity.parameters.markAllUsed();
+    return makeOurs(standInFor(entity, *standIn), owner);
+}
+
+SceneMaterial MaterialLibrary::makeMix(const Entity& entity, const std::string& owner) {
+    const Parameter* names = entity.parameters.find("string", "materials");
+    if (!names || names->count() != 2) context_.fail(entity.where, owner + ": a mix needs the names of two materials");
+    context_.warnOnce("material mix", entity.where, "the material 'mix' is not there yet; the first of its two stands in for it");
+    entity.parameters.markAllUsed();
+    constexpr int kDeepest = 64;
+    if (++depth_ > kDeepest) context_.fail(entity.where, fmt::format("mixes within mixes are more than {} deep", kDeepest));
+    const SceneMaterial first = getNamed(names->strings().front(), names->where);
+    --depth_;
+    return first;
+}
+
+SceneMaterial MaterialLibrary::makeOurs(const Entity& entity, const std::string& owner) {
+    SceneMaterialInput input(entity, owner, context_, textures_, table_.tables());
+    const std::string type = canonicalType(entity.type);
+    SceneMaterial made;
+    made.handle = *table_.add(type, input);
+    made.passThrough = MaterialTable::isPassThrough(made.handle.tag);
+    made.needsUv = input.usesTextures();
+    made.needsTangent = isAnisotropic(table_, made.handle);
+    const ParameterSet& p = entity.parameters;
+    if (p.find("texture", "displacement") || p.find("float", "displacement") || p.find("string", "normalmap"))
+        context_.warnOnce("bump", entity.where, owner + ": bump and normal maps are not there yet and are ignored");
+    if (made.passThrough) p.markAllUsed();
+    context_.warnUnused(p, owner);
+    return made;
+}
+
+}  // namespace penumbra::builder

@@ -1,0 +1,194 @@
+#include "scenes/builder/shapes.h"
+
+#include "scenes/builder/shape_meshes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace penumbra::builder {
+namespace {
+
+const std::vector<std::string>& knownShapes() {
+    static const std::vector<std::string> known{"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "sphere", "disk", "cylinder", "curve"};
+    return known;
+}
+
+bool isQuadric(const ShapeEntity& shape) { return shape.type == "sphere" || shape.type == "disk"; }
+
+/// Whether the geometric normal is the other one than the shape itself would have: its own orientation, and a mirrored
+/// object, which keeps the side that it had.
+bool flipsNormal(const ShapeEntity& shape, const ShapePlace& place) {
+    const bool mirrored = determinant3(place.groupFromObject) < 0;
+    const bool reversedSurface = shape.type == "loopsubdiv";   // the format's subdivision surfaces face against their mesh
+    return (shape.reverseOrientation != mirrored) != reversedSurface;
+}
+
+/// In radians, at most the whole circle.
+float readPhiMax(const BuildContext& context, const ParameterSet& p) {
+    const float degrees = std::min(context.number(p, "phimax", 360, -1e30f, 1e30f), 360.f);
+    return degrees == 360 ? kTwoPi : degrees * (kPi / 180);
+}
+
+}  // namespace
+
+bool isUsable(const AffineRecord& m) {
+    for (const float x : m.m)
+        if (!(std::fabs(x) < kLargestCoordinate)) return false;
+    const auto at = [&](int r, int c) { return double(m.m[4 * r + c]); };
+    const double determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) - at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
+                               at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
+    return std::fabs(determinant) > 1e-30 && std::fabs(determinant) < 1e30;
+}
+
+std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePlace& place) {
+    if (isLeftOut(shape)) return std::nullopt;
+    const std::string owner = ownerName("shape", shape.type);
+    BuiltShape out;
+    out.groupFromObject = place.groupFromObject;
+    out.material = materials_.get(shape.material);
+    if (out.material.needsUv) out.record.flags |= kShapeNeedsUv;
+    if (out.material.needsTangent) out.record.flags |= kShapeNeedsTangent;
+    if (flipsNormal(shape, place)) out.record.flags |= kShapeFlipNormal;
+    const bool isThere = isQuadric(shape) ? buildQuadric(shape, place, out) : buildMesh(shape, place, out);
+    readMedia(shape, out);
+    readEmission(shape, place, out);
+    const float alpha = readAlpha(shape);
+    context_.warnUnused(shape.parameters, owner);
+    if (alpha <= 0) out.record.flags |= kShapeInvisible;
+    if (!isThere || (alpha <= 0 && !out.emission)) return std::nullopt;
+    return out;
+}
+
+/// True for shapes that nothing stands in for. Fails where nobody knows the type.
+bool ShapeBuilder::isLeftOut(const ShapeEntity& shape) {
+    const std::vector<std::string>& known = knownShapes();
+    if (std::find(known.begin(), known.end(), shape.type) == known.end())
+        context_.fail(shape.where, "unknown shape " + quote(shape.type) + suggestion(shape.type, known));
+    const bool leftOut = shape.type == "cylinder" || shape.type == "curve";
+    if (leftOut) context_.warnOnce("shape " + shape.type, shape.where, "the shape " + quote(shape.type) + " is not there yet and is left out");
+    return leftOut;
+}
+
+bool ShapeBuilder::buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
+    out.record.kind = ShapeKind::Mesh;
+    out.mesh = readMesh(shape);
+    TriangleMesh& mesh = out.mesh;
+    mesh.faceIndices = {};
+    if (!(out.record.flags & (kShapeNeedsUv | kShapeNeedsTangent))) mesh.uvs = {};
+    if (!(out.record.flags & kShapeNeedsTangent)) mesh.tangents = {};
+    if (!(place.groupFromObject == Matrix4{})) transform(mesh, place.groupFromObject);
+    if (shape.reverseOrientation)
+        for (float& n : mesh.normals) n = -n;
+    counts_.droppedTriangles += dropBadTriangles(mesh);
+    if (mesh.triangleCount() == 0) context_.warn(shape.where, ownerName("shape", shape.type) + ": no triangle is left of the mesh");
+    return mesh.triangleCount() != 0;
+}
+
+TriangleMesh ShapeBuilder::readMesh(ShapeEntity& shape) {
+    const std::string where = context_.position(shape.where) + ": " + ownerName("shape", shape.type);
+    ParameterSet& p = shape.parameters;
+    if (shape.type == "plymesh") return readPlyMesh(shape);
+    if (shape.type == "bilinearmesh") {
+        context_.warnOnce("shape bilinearmesh", shape.where, "the shape 'bilinearmesh' is not there yet; triangles stand in for its patches");
+        p.text("emissionfilename", "");
+        return meshFromPatches(takeMeshArrays(p), where, context_.warnings());
+    }
+    if (shape.type == "loopsubdiv") {
+        context_.warnOnce("shape loopsubdiv", shape.where, "the shape 'loopsubdiv' is not there yet; its control mesh stands in for it");
+        p.integer("levels", 3);
+        p.text("scheme", "");
+    }
+    return meshFromArrays(takeMeshArrays(p), where, context_.warnings());
+}
+
+TriangleMesh ShapeBuilder::readPlyMesh(const ShapeEntity& shape) {
+    const ParameterSet& p = shape.parameters;
+    const std::string owner = ownerName("shape", shape.type);
+    const std::string file = p.text("filename", "");
+    if (file.empty()) context_.fail(shape.where, owner + ": \"string filename\" is missing");
+    p.number("edgelength", 1);
+    if (const Parameter* displacement = p.find("texture", "displacement"))
+        context_.warnOnce("displacement", displacement->where, owner + ": displacement is not there yet and is ignored");
+    return context_.placed(shape.where, owner, [&] { return readPly(context_.path(file), context_.warnings()); });
+}
+
+bool ShapeBuilder::buildQuadric(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
+    QuadricRecord& q = out.quadric;
+    q = shape.type == "sphere" ? readSphere(shape) : readDisk(shape);
+    out.record.kind = q.kind;
+    const bool isEmptyPart = !(q.phiMax > 0) || (q.kind == ShapeKind::Sphere ? !(q.zMax > q.zMin) : !(q.innerRadius < q.radius));
+    Matrix4 objectFromGroup;
+    const bool invertible = invert(place.groupFromObject, objectFromGroup);
+    q.worldFromObject = toRecord(place.groupFromObject);
+    q.objectFromWorld = toRecord(objectFromGroup);
+    const bool usable = invertible && isUsable(q.worldFromObject) && isUsable(q.objectFromWorld);
+    if (isEmptyPart || !usable)
+        context_.warn(shape.where, ownerName("shape", shape.type) + (isEmptyPart ? ": nothing is left of it by its limits"
+                                                                                 : ": it is too large or too small to be seen, and left out"));
+    return !isEmptyPart && usable;
+}
+
+QuadricRecord ShapeBuilder::readSphere(const ShapeEntity& shape) {
+    const ParameterSet& p = shape.parameters;
+    QuadricRecord q;
+    q.kind = ShapeKind::Sphere;
+    q.radius = context_.number(p, "radius", 1, 1e-12f, 1e12f);
+    const float a = p.number("zmin", -q.radius), b = p.number("zmax", q.radius);
+    q.zMin = std::clamp(std::min(a, b), -q.radius, q.radius);
+    q.zMax = std::clamp(std::max(a, b), -q.radius, q.radius);
+    q.thetaMin = std::acos(q.zMax / q.radius);
+    q.thetaMax = std::acos(q.zMin / q.radius);
+    q.phiMax = readPhiMax(context_, p);
+    return q;
+}
+
+QuadricRecord ShapeBuilder::readDisk(const ShapeEntity& shape) {
+    const ParameterSet& p = shape.parameters;
+    QuadricRecord q;
+    q.kind = ShapeKind::Disk;
+    q.radius = context_.number(p, "radius", 1, 1e-12f, 1e12f);
+    q.innerRadius = context_.number(p, "innerradius", 0, 0, 1e12f);
+    q.zMin = q.zMax = context_.number(p, "height", 0, -1e12f, 1e12f);
+    q.phiMax = readPhiMax(context_, p);
+    return q;
+}
+
+/// What the parameter "alpha" says: at most 0 for a shape that no ray meets. Values between count as 1 for now.
+float ShapeBuilder::readAlpha(const ShapeEntity& shape) {
+    const ParameterSet& p = shape.parameters;
+    float alpha = 1;
+    const Parameter* given = p.find("texture", "alpha");
+    if (given) {
+        const TextureOperand operand = textures_.scalar(*given);
+        alpha = operand.isConstant() ? operand.constant.r : 0.5f;
+    } else {
+        alpha = p.number("alpha", 1);
+        given = p.findAny("alpha");
+    }
+    if (alpha > 0 && alpha < 1)
+        context_.warnOnce("alpha", given->where, ownerName("shape", shape.type) + ": an alpha between 0 and 1 is not there yet and counts as 1");
+    return alpha;
+}
+
+void ShapeBuilder::readEmission(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
+    if (shape.areaLight < 0) return;
+    const std::string owner = ownerName("shape", shape.type);
+    if (!place.mayShine)
+        return context_.warnOnce("moving light", shape.where, owner + ": shapes that move or stand in objects cannot be area lights; it does not shine");
+    if (out.material.passThrough)
+        return context_.warn(shape.where, owner + ": a shape with an interface material cannot be an area light; it does not shine");
+    const AreaEmission& emission = lights_.get(shape.areaLight);
+    if (!emission.isBlack()) out.emission = emission;
+}
+
+void ShapeBuilder::readMedia(const ShapeEntity& shape, BuiltShape& out) {
+    const MediumReference& medium = shape.medium;
+    if (!medium.given || medium.inside == medium.outside) return;
+    out.record.flags |= kShapeMediumBoundary;
+    out.record.mediumInside = media_.row(medium.inside, medium.where);
+    out.record.mediumOutside = media_.row(medium.outside, medium.where);
+}
+
+}  // namespace penumbra::builder

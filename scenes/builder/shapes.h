@@ -1,0 +1,67 @@
+// Shapes: from a Shape directive to a mesh or quadric in the space of its group.
+#pragma once
+
+#include "scenes/builder/lights.h"
+#include "scenes/builder/materials.h"
+#include "scenes/builder/media.h"
+
+#include "core/geometry/geometry.h"
+
+namespace penumbra::builder {
+
+/// A shape that is ready for the geometry's tables.
+struct BuiltShape {
+    ShapeRecord record;                  ///< kind, flags and media; of quadrics and meshes alike
+    SceneMaterial material;
+    TriangleMesh mesh;                   ///< where record.kind is Mesh
+    QuadricRecord quadric;
+    Matrix4 groupFromObject;
+    std::optional<AreaEmission> emission;
+};
+
+/// Where a shape stands.
+struct ShapePlace {
+    Matrix4 groupFromObject;
+    bool mayShine = true;      ///< it stands still in the world: neither moving nor in an object
+};
+
+struct ShapeCounts {
+    std::size_t droppedTriangles = 0;
+};
+
+/// Thread safety: none; one instance belongs to one build.
+class ShapeBuilder {
+public:
+    /// All must outlive this object.
+    ShapeBuilder(BuildContext& context, TextureLibrary& textures, MaterialLibrary& materials, MediumLibrary& media, AreaLightLibrary& lights)
+        : context_(context), textures_(textures), materials_(materials), media_(media), lights_(lights) {}
+
+    /// Takes the directive apart. Nothing where nothing of it can be seen.
+    std::optional<BuiltShape> build(ShapeEntity&& shape, const ShapePlace& place);
+    const ShapeCounts& counts() const { return counts_; }
+
+private:
+    bool isLeftOut(const ShapeEntity& shape);
+    bool buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
+    bool buildQuadric(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
+    TriangleMesh readMesh(ShapeEntity& shape);
+    TriangleMesh readPlyMesh(const ShapeEntity& shape);
+    TriangleMesh readBilinearMesh(ShapeEntity& shape);
+    QuadricRecord readSphere(const ShapeEntity& shape);
+    QuadricRecord readDisk(const ShapeEntity& shape);
+    float readAlpha(const ShapeEntity& shape);
+    void readEmission(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
+    void readMedia(const ShapeEntity& shape, BuiltShape& out);
+
+    BuildContext& context_;
+    TextureLibrary& textures_;
+    MaterialLibrary& materials_;
+    MediumLibrary& media_;
+    AreaLightLibrary& lights_;
+    ShapeCounts counts_;
+};
+
+/// Whether rays can be taken through the matrix and back in float: it has an inverse, and all is far from overflow.
+bool isUsable(const AffineRecord& m);
+
+}  // namespace penumbra::builder

@@ -1,0 +1,164 @@
+#include "scenes/builder/world.h"
+
+#include <map>
+
+namespace penumbra::builder {
+namespace {
+
+/// The motion of a part that moves within something that is placed or moves itself.
+std::vector<Matrix4> composed(const TransformPair& outer, const TransformPair& inner) {
+    if (outer.animated() && inner.animated()) return motionMatrices(outer.start * inner.start, outer.end * inner.end);
+    std::vector<Matrix4> motion = outer.animated() ? motionMatrices(outer.start, outer.end) : motionMatrices(inner.start, inner.end);
+    for (Matrix4& m : motion) m = outer.animated() ? m * inner.start : outer.start * m;
+    return motion;
+}
+
+std::map<std::string, std::size_t, std::less<>> objectNames(const SceneDescription& description) {
+    std::map<std::string, std::size_t, std::less<>> names;
+    for (std::size_t i = 0; i < description.objects.size(); ++i) names[description.objects[i].name] = i;
+    return names;
+}
+
+}  // namespace
+
+void WorldBuilder::add(SceneDescription& description) {
+    for (ShapeEntity& shape : description.shapes) {
+        const TransformPair place = shape.objectToWorld;
+        const SourcePosition where = shape.where;
+        if (place.animated()) {
+            const std::size_t group = addMovingGroup(std::move(shape));
+            addInstance(group, motionMatrices(place.start, place.end), where);
+        } else if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {place.start, true})) {
+            groups_[0].shapes.push_back(std::move(*built));
+        }
+    }
+    description.shapes = {};
+
+    const auto names = objectNames(description);
+    std::map<std::size_t, Object> objects;   // only of those that are used
+    for (const ObjectInstance& instance : description.instances) {
+        const auto found = names.find(instance.name);
+        if (found == names.end()) {
+            std::vector<std::string> known;
+            for (const auto& entry : names) known.push_back(entry.first);
+            context_.fail(instance.where, "unknown object " + quote(instance.name) + suggestion(instance.name, known));
+        }
+        const auto [place, isNew] = objects.try_emplace(found->second);
+        if (isNew) place->second = addObject(description.objects[found->second]);
+        const TransformPair& to = instance.instanceToWorld;
+        addInstance(place->second.still, motionMatrices(to.start, to.end), instance.where);
+        for (const MovingPart& part : place->second.moving) addInstance(part.group, composed(to, part.motion), instance.where);
+    }
+    description.objects = {};
+}
+
+std::size_t WorldBuilder::addGroup(std::vector<BuiltShape> shapes) {
+    if (shapes.empty()) return 0;
+    groups_.push_back({std::move(shapes)});
+    return groups_.size() - 1;
+}
+
+/// The shape stays in its object space, where what mirrors it is the motion.
+std::size_t WorldBuilder::addMovingGroup(ShapeEntity&& shape) {
+    std::vector<BuiltShape> shapes;
+    if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {Matrix4{}, false})) shapes.push_back(std::move(*built));
+    return addGroup(std::move(shapes));
+}
+
+WorldBuilder::Object WorldBuilder::addObject(ObjectDefinition& definition) {
+    Object object;
+    std::vector<BuiltShape> still;
+    for (ShapeEntity& shape : definition.shapes) {
+        const TransformPair place = shape.objectToWorld;
+        if (place.animated()) {
+            if (const std::size_t group = addMovingGroup(std::move(shape))) object.moving.push_back({group, place});
+        } else if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {place.start, false})) {
+            still.push_back(std::move(*built));
+        }
+    }
+    object.still = addGroup(std::move(still));
+    return object;
+}
+
+void WorldBuilder::addInstance(std::size_t group, const std::vector<Matrix4>& motion, SourcePosition where) {
+    if (group == 0) return;   // nothing to be seen
+    InstanceRecord record;
+    record.group = std::uint32_t(group);
+    record.firstMatrix = std::uint32_t(scene_.geometry.matrices.size());
+    record.segments = std::uint32_t(motion.size() - 1);
+    std::vector<AffineRecord> matrices;
+    for (const Matrix4& m : motion) {
+        matrices.push_back(toRecord(m));
+        if (!isUsable(matrices.back()))
+            return context_.warn(where, "what is placed here is too large or too small to be seen, and left out");
+    }
+    scene_.geometry.matrices.insert(scene_.geometry.matrices.end(), matrices.begin(), matrices.end());
+    scene_.geometry.instances.push_back(record);
+    scene_.hasMotion = scene_.hasMotion || record.segments > 0;
+}
+
+void WorldBuilder::finish() {
+    Geometry& g = scene_.geometry;
+    reserveTables();
+    g.groups.assign(groups_.size(), {});
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        g.groups[i] = {std::uint32_t(g.shapes.size()), std::uint32_t(groups_[i].shapes.size())};
+        for (BuiltShape& shape : groups_[i].shapes) append(shape);
+        groups_[i] = {};
+    }
+    for (InstanceRecord& instance : g.instances) instance.firstShape = g.groups[instance.group].firstShape;
+    g.finish();
+    scene_.facts.shapes = g.shapes.size();
+    scene_.facts.instances = g.instances.size();
+    scene_.facts.triangles = g.indices.size() / 3;
+    scene_.facts.droppedTriangles = shapes_.counts().droppedTriangles;
+    scene_.facts.geometryBytes = g.memoryBytes();
+}
+
+/// One mesh alone is moved as it is; several are copied one by one into tables that never grow.
+void WorldBuilder::reserveTables() {
+    Geometry& g = scene_.geometry;
+    std::size_t meshes = 0, shapes = 0, quadrics = 0, positions = 0, normals = 0, uvs = 0, tangents = 0, indices = 0;
+    for (const Group& group : groups_)
+        for (const BuiltShape& shape : group.shapes) {
+            ++shapes;
+            if (shape.record.kind != ShapeKind::Mesh) {
+                ++quadrics;
+                continue;
+            }
+            ++meshes;
+            positions += shape.mesh.positions.size();
+            normals += shape.mesh.normals.size();
+            uvs += shape.mesh.uvs.size();
+            tangents += shape.mesh.tangents.size();
+            indices += shape.mesh.indices.size();
+        }
+    g.shapes.reserve(shapes);
+    g.quadrics.reserve(quadrics);
+    if (meshes < 2) return;
+    const auto reserve = [](auto& table, std::size_t count) {
+        if (count > 0) table.reserve(count + kSpareFloats);
+    };
+    reserve(g.positions, positions);
+    reserve(g.normals, normals);
+    reserve(g.uvs, uvs);
+    reserve(g.tangents, tangents);
+    reserve(g.indices, indices);
+}
+
+void WorldBuilder::append(BuiltShape& shape) {
+    Geometry& g = scene_.geometry;
+    const bool isMesh = shape.record.kind == ShapeKind::Mesh;
+    ShapeRecord record = isMesh ? g.addMesh(std::move(shape.mesh)) : g.addQuadric(shape.quadric);
+    record.flags = shape.record.flags;
+    record.mediumInside = shape.record.mediumInside;
+    record.mediumOutside = shape.record.mediumOutside;
+    record.material = scene_.materials.id(shape.material.handle);
+    if (shape.emission) {
+        if (isMesh) addMeshLights(*shape.emission, g, scene_.lights, record);
+        else addQuadricLight(*shape.emission, shape.quadric, shape.groupFromObject, scene_.lights, record);
+    }
+    g.shapes.push_back(record);
+}
+
+}  // namespace penumbra::builder
