@@ -9,7 +9,7 @@ namespace {
 std::uint32_t appendAttribute(std::vector<float>& all, std::vector<float>&& mesh, std::size_t width, std::size_t firstVertex) {
     if (mesh.empty()) return kNone;
     const std::size_t row = all.size() / width;
-    if (all.empty()) all = std::move(mesh);
+    if (all.capacity() == 0) all = std::move(mesh);   // unless room for several meshes was made
     else all.insert(all.end(), mesh.begin(), mesh.end());
     mesh = {};
     return std::uint32_t(row) - std::uint32_t(firstVertex);
@@ -35,10 +35,10 @@ ShapeRecord Geometry::addMesh(TriangleMesh&& mesh) {
     r.tangentShift = appendAttribute(tangents, std::move(mesh.tangents), 3, firstVertex);
     if (firstVertex)
         for (std::uint32_t& i : mesh.indices) i += std::uint32_t(firstVertex);
-    if (indices.empty()) indices = std::move(mesh.indices);
+    if (indices.capacity() == 0) indices = std::move(mesh.indices);
     else indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     mesh.indices = {};
-    if (positions.empty()) positions = std::move(mesh.positions);
+    if (positions.capacity() == 0) positions = std::move(mesh.positions);
     else positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
     mesh.positions = {};
     return r;
