@@ -88,4 +88,43 @@ Filter::Axis::Axis(const FilterSettings& s, double r)
 
 Filter::Filter(const FilterSettings& s) : isBox_(s.kind == FilterKind::Box), x_(s, s.radiusX), y_(s, s.radiusY) {}
 
+namespace {
+
+constexpr std::string_view kHalfWidth = "half the width, in pixels", kHalfHeight = "half the height, in pixels";
+constexpr ParameterInfo kBoxParameters[] = {
+    {"float", "xradius", "0.5", kHalfWidth},
+    {"float", "yradius", "0.5", kHalfHeight},
+};
+constexpr ParameterInfo kTriangleParameters[] = {
+    {"float", "xradius", "2", kHalfWidth},
+    {"float", "yradius", "2", kHalfHeight},
+};
+constexpr ParameterInfo kGaussianParameters[] = {
+    {"float", "xradius", "1.5", kHalfWidth},
+    {"float", "yradius", "1.5", kHalfHeight},
+    {"float", "sigma", "0.5", "standard deviation, in pixels"},
+};
+constexpr ParameterInfo kMitchellParameters[] = {
+    {"float", "xradius", "2", kHalfWidth},
+    {"float", "yradius", "2", kHalfHeight},
+    {"float", "B", "1/3", "blur against ringing"},
+    {"float", "C", "1/3", "sharpness; B + 2 C = 1 is the good line"},
+};
+constexpr ParameterInfo kSincParameters[] = {
+    {"float", "xradius", "4", kHalfWidth},
+    {"float", "yradius", "4", kHalfHeight},
+    {"float", "tau", "3", "cycles of the window"},
+};
+constexpr PluginInfo kFilters[] = {
+    {"box", "the plain mean over the box, one pixel by default", kBoxParameters},
+    {"triangle", "falls off linearly", kTriangleParameters},
+    {"gaussian", "a bell minus its value at the radius; never negative (default)", kGaussianParameters},
+    {"mitchell", "Mitchell and Netravali's cubic; sharper, with negative lobes", kMitchellParameters},
+    {"sinc", "windowed sinc (Lanczos); sharpest, with negative lobes", kSincParameters},
+};
+
+}  // namespace
+
+std::span<const PluginInfo> filterPlugins() { return kFilters; }
+
 }  // namespace penumbra

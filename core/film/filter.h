@@ -6,6 +6,7 @@
 // The filters are separable with the parameters of PBRT-v4. Places are offsets from the centre of the pixel, in pixels.
 #pragma once
 
+#include "core/base/plugin.h"
 #include "core/math/vector.h"
 
 #include <string>
@@ -86,6 +87,9 @@ private:
     bool isBox_ = false;
     Axis x_, y_;
 };
+
+/// The filters with their parameters, for `list`.
+std::span<const PluginInfo> filterPlugins();
 
 /// Value of one axis of the filter at x pixels from the centre.
 double filterValue(const FilterSettings& s, double radius, double x);

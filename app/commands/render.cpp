@@ -1,0 +1,244 @@
+// penumbra render: from a scene to a picture, or to the value of one sample.
+
+#include "app/batch/recipe.h"
+#include "app/batch/render_job.h"
+#include "app/batch/statistics.h"
+#include "app/commands/arguments.h"
+#include "app/commands/commands.h"
+#include "app/commands/console.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/progress.h"
+#include "app/commands/threads.h"
+#include "core/base/parallel.h"
+#include "core/base/text.h"
+#include "integrators/registry.h"
+
+#include <CLI/CLI.hpp>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace penumbra {
+namespace {
+
+constexpr char kExamples[] =
+    "A picture is a function of the scene and the options of \"Sampling\" and \"Light transport\": threads change no\n"
+    "bit of it. An EXR holds the picture (R G B A), the standard error of every pixel (SE.R SE.G SE.B), its\n"
+    "number of samples, and in its header what it takes to render the same bits again.\n"
+    "\n"
+    "Examples:\n"
+    "  penumbra render cornell.pbrt -o cornell.exr --spp 256\n"
+    "  penumbra render cornell.pbrt -o quick.png --spp 16 --resolution 320x240 -t 4\n"
+    "  penumbra render cornell.pbrt --pixel 17,42 --sample 3\n";
+
+constexpr int kMostSamples = 1 << 30, kMostDepth = 100000, kMostReplicates = 4096;
+constexpr WholeRange kPixelNumbers{0, std::numeric_limits<std::int32_t>::max()}, kSides{1, std::numeric_limits<std::int32_t>::max()};
+
+struct RenderRequest {
+    RenderOptions options;
+    std::optional<std::string> outfile;
+    int threads = 0;
+    bool quiet = false, strict = false;
+    std::optional<std::pair<int, int>> pixel;
+    std::optional<std::uint32_t> sample;
+    std::string statistics;               ///< "text", "json", or empty: none
+    ProgressStyle progress = ProgressStyle::People;
+    int progressDescriptor = STDOUT_FILENO;   ///< of the JSON lines
+};
+
+/// "none", "json" or "json:3".
+void setProgress(RenderRequest& request, const std::string& text) {
+    constexpr int kMostDescriptors = 1 << 20;
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string form = text.substr(0, colon);
+    if (form != "json" && text != "none")
+        throw Error(ErrorKind::Usage, "--progress: unknown form " + quote(text) + "; known: none, json, json:DESCRIPTOR");
+    request.progress = form == "json" ? ProgressStyle::Json : ProgressStyle::None;
+    if (colon == text.size()) return;
+    request.progressDescriptor = int(Arguments::parseWhole("--progress", text.substr(colon + 1), {0, kMostDescriptors}));
+    if (::fcntl(request.progressDescriptor, F_GETFD) == -1)
+        throw Error(ErrorKind::Usage, fmt::format("--progress: descriptor {} is not open", request.progressDescriptor));
+}
+
+void checkRequest(const RenderRequest& request) {
+    if (request.options.scene.empty()) throw Error(ErrorKind::Usage, "a scene is missing: penumbra render SCENE -o PICTURE");
+    if (request.pixel.has_value() != request.sample.has_value())
+        throw Error(ErrorKind::Usage, "--pixel and --sample belong together: they name the sample to replay");
+    if (!request.statistics.empty() && request.statistics != "text" && request.statistics != "json")
+        throw Error(ErrorKind::Usage, "--stats: unknown form " + quote(request.statistics) + "; known: text, json");
+}
+
+/// Eight lanes must give what one gives.
+void replay(const RenderJob& job, const RenderRequest& request) {
+    const auto [x, y] = *request.pixel;
+    const Spectrum<float> alone = job.replay(x, y, *request.sample, 1), wide = job.replay(x, y, *request.sample, 8);
+    for (const auto channel : {&Spectrum<float>::r, &Spectrum<float>::g, &Spectrum<float>::b})
+        if (floatBits(alone.*channel) != floatBits(wide.*channel) && !(std::isnan(alone.*channel) && std::isnan(wide.*channel)))
+            throw Error(ErrorKind::Internal,
+                        fmt::format("determinism alarm: one lane gives {:.9g} {:.9g} {:.9g}, eight lanes give {:.9g} {:.9g} {:.9g}",
+                                    alone.r, alone.g, alone.b, wide.r, wide.g, wide.b));
+    printOut(fmt::format("{:.9g} {:.9g} {:.9g}\n", alone.r, alone.g, alone.b));
+    if (std::isnan(alone.r) && !request.quiet)
+        printWarning("the sample is not finite, or beyond the range of the film: the film counts it as invalid and holds black for it");
+}
+
+/// Says which samples were lost, with the commands that replay them.
+void reportInvalid(const RenderJob& job) {
+    constexpr std::size_t kMostShown = 4;
+    const RenderCounts& counts = job.counts();
+    std::string text = fmt::format("{} of {} samples were not finite and count as black; to replay {}:", counts.invalid, counts.paths,
+                                   counts.invalid == 1 ? "it" : "them");
+    const std::size_t shown = std::min(kMostShown, counts.firstInvalid.size());
+    for (std::size_t i = 0; i < shown; ++i) text += "\n  " + replayCommand(job, counts.firstInvalid[i]);
+    if (counts.invalid > shown) text += fmt::format("\n  and {} more", counts.invalid - shown);
+    printWarning(text);
+}
+
+void reportPicture(const RenderJob& job, const std::string& path, const std::string& through, const RenderStatistics& statistics) {
+    const CropWindow& crop = job.film().crop();
+    std::string text = fmt::format("wrote {}: {}x{}, {} samples per pixel in {:.2f} s", pathText(path), crop.width(), crop.height(),
+                                   job.scene().samplesPerPixel, statistics.times.render);
+    if (statistics.error.unknownPixels < job.film().pixelCount())
+        text += fmt::format(", standard error {:.2g} % of the mean", 100 * statistics.error.relative);
+    printNote(text);
+    if (!through.empty()) printNote("colours went through " + through);
+}
+
+void printStatistics(const RenderJob& job, const RenderRequest& request, const RenderStatistics& statistics) {
+    if (request.statistics == "text") printTo(STDERR_FILENO, statisticsText(statistics));
+    if (request.statistics == "json") printOut(statisticsJson(statistics, job) + "\n");
+}
+
+void printFinalEvent(const RenderJob& job, const std::string& path, const RenderStatistics& statistics, int descriptor) {
+    const nlohmann::ordered_json line = {
+        {"t", timeText()},
+        {"event", "done"},
+        {"picture", path},
+        {"statistics", nlohmann::ordered_json::parse(statisticsJson(statistics, job))},
+    };
+    printTo(descriptor, line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+/// Renders and writes the picture; a signal meanwhile ends it with no picture, or with the whole one.
+void renderPicture(RenderJob& job, const RenderRequest& request, const std::string& path) {
+    const InterruptGuard guard;
+    const ProgressStyle style =
+        request.quiet && request.progress == ProgressStyle::People ? ProgressStyle::None : request.progress;
+    bool whole = false;
+    {
+        const ProgressDisplay display(job, style, request.progressDescriptor);
+        whole = job.run(&stopRequested());
+    }
+    if (!whole) throwIfInterrupted();
+    const std::string through = job.writePicture(path);
+    const RenderStatistics statistics = statisticsOf(job);
+    if (!request.quiet) reportPicture(job, path, through, statistics);
+    if (job.counts().invalid && !request.quiet) reportInvalid(job);
+    printStatistics(job, request, statistics);
+    if (style == ProgressStyle::Json) printFinalEvent(job, path, statistics, request.progressDescriptor);
+    if (job.counts().invalid && request.strict)
+        throw Error(ErrorKind::BadData, fmt::format("{} samples were not finite (--strict)", job.counts().invalid));
+}
+
+void runRender(const RenderRequest& request) {
+    checkRequest(request);
+    if (request.outfile) checkPicturePath(*request.outfile);
+    const ThreadLimit threads(chooseThreads(request.threads));
+    Warnings warnings(request.strict);
+    WarningPrinter printer(warnings, request.quiet);
+    RenderJob job(request.options, warnings);
+    printer.flush();
+    if (request.pixel) return replay(job, request);
+    const std::string path = request.outfile.value_or(job.scene().film.fileName);
+    checkPicturePath(path);
+    checkKeepsInputs(path, job.inputs());
+    renderPicture(job, request, path);
+}
+
+// ---- options --------------------------------------------------------------------------------------------------------
+
+/// A choice among the values of an enumeration by their names.
+template <class Value>
+void addEnum(Arguments& arguments, const std::string& names, std::vector<std::pair<std::string, Value>> values, auto& target,
+             const std::string& help) {
+    std::vector<std::string> known;
+    for (const auto& value : values) known.push_back(value.first);
+    arguments.choice(names, known, help, [values, &target](const std::string& name) {
+        target = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == name; })->second;
+    });
+}
+
+void addOutput(Arguments& arguments, RenderRequest& r) {
+    arguments.group("Output");
+    arguments.text("-o,--outfile", "FILE", "the picture: .exr with its error, or .png .jpg .tif .hdr .pfm (default: the film's filename)",
+                   [&r](const std::string& t) { r.outfile = t; });
+    arguments.flag("--quiet", r.quiet, "say nothing but errors");
+    arguments.optionalText("--stats", "text", "json", r.statistics,
+                           "what the render took: for people on standard error, as JSON on standard output");
+    arguments.text("--progress", "FORM", "none, or JSON lines: json (on standard output), json:DESCRIPTOR (default: a bar or lines for people)",
+                   [&r](const std::string& t) { setProgress(r, t); });
+    arguments.flag("--strict", r.strict, "warnings are errors, and so are samples that are not finite");
+}
+
+void addSampling(Arguments& arguments, RenderRequest& r) {
+    BuildOptions& b = r.options.build;
+    arguments.group("Sampling (default: as the scene says)");
+    arguments.whole("--spp", "N", {1, kMostSamples}, b.samplesOverride, "samples per pixel; powers of two serve the sobol sampler best");
+    arguments.text("--resolution", "WxH", "size of the whole picture in pixels; a crop keeps its fraction", [&b](const std::string& t) {
+        std::tie(b.width, b.height) = Arguments::parsePair("--resolution", t, 'x', kSides);
+    });
+    arguments.whole("--seed", "N", {0, std::numeric_limits<std::uint32_t>::max()}, b.seed, "seed of the sampler, from 0 to 4294967295");
+    arguments.choice("--sampler", pluginNames(SamplerTypes{}), "the sampler", [&b](const std::string& t) { b.sampler = t; });
+    arguments.whole("--replicates", "N", {1, kMostReplicates}, r.options.replicates,
+                    "independent randomisations whose spread gives the error (default: 1, which takes samples as independent)");
+}
+
+void addTransport(Arguments& arguments, RenderRequest& r) {
+    BuildOptions& b = r.options.build;
+    arguments.group("Light transport (default: as the scene says)");
+    arguments.choice("--integrator", pluginNames(IntegratorTypes{}), "the integrator", [&b](const std::string& t) { b.integrator = t; });
+    arguments.whole("--maxdepth", "N", {0, kMostDepth}, b.maxDepth, "scattering events of a path at most");
+    addEnum<RouletteRule>(arguments, "--roulette", {{"late", RouletteRule::Late}, {"pbrt", RouletteRule::Pbrt}, {"off", RouletteRule::Off}},
+                          b.roulette, "when faint paths may end early (default: late)");
+    addEnum<Strategy>(arguments, "--strategy", {{"mis", Strategy::Mis}, {"bsdf", Strategy::BsdfOnly}, {"light", Strategy::LightOnly}},
+                      b.strategy, "how light is looked for: by both ways combined, by scattered rays alone, by light samples alone (default: mis)");
+    addEnum<LightSelection>(arguments, "--light-selection", {{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}},
+                            b.lightSelection, "which light is sampled next (default: power)");
+    addEnum<bool>(arguments, "--light-sampling", {{"solid-angle", false}, {"area", true}}, b.classicArea,
+                  "how a point on an area light is chosen: by the solid angle it covers, or evenly by area, the classic estimator of "
+                  "textbooks: cosine at the surface x cosine at the light x area / distance squared (default: solid-angle)");
+    addEnum<IntersectionMode>(arguments, "--intersection", {{"robust", IntersectionMode::Robust}, {"fast", IntersectionMode::Fast}},
+                              b.intersection, "watertight, or faster with a ray in a million slipping through edges (default: robust)");
+}
+
+void addRunning(Arguments& arguments, RenderRequest& r) {
+    arguments.group("Running");
+    arguments.whole("-t,--nthreads", "N", {1, kMostThreads}, r.threads,
+                    "threads (default: $SLURM_CPUS_PER_TASK, $CUE_THREADS, else every processor)");
+    addEnum<int>(arguments, "--lanes", {{"8", 8}, {"1", 1}}, r.options.controls.lanes, "paths traced side by side; changes no bit (default: 8)");
+    arguments.text("--pixel", "X,Y", "with --sample: replay one sample instead of rendering, and print its R G B",
+                   [&r](const std::string& t) { r.pixel = Arguments::parsePair("--pixel", t, ',', kPixelNumbers); });
+    arguments.whole("--sample", "I", {0, kMostSamples - 1}, r.sample, "the sample of the pixel to replay, counted from 0");
+}
+
+}  // namespace
+
+Command addRenderCommand(CLI::App& program) {
+    CLI::App& command = *program.add_subcommand("render", "render a scene to a picture that carries its error");
+    command.footer(kExamples);
+    const auto request = std::make_shared<RenderRequest>();
+    Arguments arguments(command);
+    arguments.positional("SCENE", request->options.scene, "the scene (.pbrt, .pbrt.gz); \"-\" reads standard input");
+    addOutput(arguments, *request);
+    addSampling(arguments, *request);
+    addTransport(arguments, *request);
+    addRunning(arguments, *request);
+    return {&command, [request] { runRender(*request); }};
+}
+
+}  // namespace penumbra

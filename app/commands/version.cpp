@@ -1,0 +1,25 @@
+#include "app/commands/version.h"
+
+#include "core/base/sha256.h"
+#include "core/base/version.h"
+#include "core/geometry/accelerator.h"
+
+#include <CLI/Version.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace penumbra {
+
+std::string versionText() {
+    std::string text = fmt::format("penumbra {} ({}, {})\n", kVersion, kNativeBuild ? "compiled for this machine alone" : "x86-64-v3",
+                                   __VERSION__);
+    const std::string json = fmt::format("nlohmann-json {}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                         NLOHMANN_JSON_VERSION_PATCH);
+    const std::string format = fmt::format("fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
+    for (const std::string& library :
+         {Accelerator::libraryVersion(), Sha256::libraryVersion(), std::string("CLI11 ") + CLI11_VERSION, format, json})
+        text += library + "\n";
+    return text;
+}
+
+}  // namespace penumbra
