@@ -55,6 +55,7 @@ struct SphereView {
     F d;                     ///< its distance from the centre
     F excess;                ///< d^2 - 1
     Mask<F> inside;
+    Mask<F> whole;
     Mask<F> byArea;          ///< the light is sampled by area
     Mask<F> outwards, inwards;   ///< emits to the outside, the inside of the sphere (not of its orientation)
 
@@ -63,7 +64,8 @@ struct SphereView {
         d = length(o);
         excess = (d - F(1.f)) * (d + F(1.f));
         inside = d < F(1.f);
-        byArea = (light(&SphereLight::whole) == UInt<F>(0u)) | Mask<F>(tables.classicArea);
+        whole = light(&SphereLight::whole) != UInt<F>(0u);
+        byArea = select(whole, Mask<F>(tables.classicArea), Mask<F>(true));
         const UInt<F> flags = light(&SphereLight::flags);
         const Mask<F> twoSided = hasFlag<F>(flags, kLightTwoSided), reversed = hasFlag<F>(flags, kLightReversed);
         outwards = select(reversed, twoSided, Mask<F>(true));
@@ -84,10 +86,11 @@ struct SphereView {
         const F distance = length(v);
         return distance * distance * distance / (abs(dot(q, v)) * partArea);
     }
-    /// Whether the sphere's point q shines on the point.
+    /// Whether the sphere's point q shines on the point. From outside a whole sphere hides its far side.
     Mask<F> lit(const Vec3<F>& q) const {
         const Mask<F> behind = select(byArea, dot(q, q - o) >= F(0.f), inside);
-        return select(behind, inwards, outwards);
+        const Mask<F> hidden = whole & byArea & behind & !inside;
+        return select(behind, inwards, outwards) & !hidden;
     }
 
     Vec3<F> samplePoint(const Records<F, SphereLight>& light, const Vec2<F>& u) const;
@@ -115,7 +118,7 @@ Vec3<F> SphereView<F>::sampleDirection(const Vec2<F>& u, F& distance) const {
     const F cosine = F(1.f) - versine;
     const Vec3<F> inCone = frame.toWorld({q.x * spread, q.y * spread, cosine});
     const F sine2 = versine * (F(2.f) - versine);
-    const F near = excess / (d * cosine + safeSqrt(F(1.f) - d * d * sine2));
+    const F near = excess / max(d * cosine + safeSqrt(F(1.f) - d * d * sine2), F(1e-20f));   // 0 / 0 on the horizon
     if (none(inside)) {
         distance = near;
         return inCone;
