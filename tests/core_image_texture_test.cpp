@@ -24,9 +24,7 @@ public:
     Input& text(const std::string& name, const std::string& value) {
         return parameter("string", name, std::vector<std::string>{value});
     }
-    Input& number(const std::string& name, float value) {
-        return parameter("float", name, std::vector<float>{value});
-    }
+    Input& number(const std::string& name, float value) { return parameter("float", name, std::vector<float>{value}); }
     Input& flag(const std::string& name, bool value) {
         return parameter("bool", name, std::vector<std::uint8_t>{std::uint8_t(value)});
     }
@@ -93,8 +91,12 @@ private:
     std::map<std::string, Image> files_;
 };
 
-Input numberInput() { return Input(TextureKind::Float); }
-Input colorInput(SpectrumRole role = SpectrumRole::Albedo) { return Input(TextureKind::Spectrum, role); }
+Input numberInput() {
+    return Input(TextureKind::Float);
+}
+Input colorInput(SpectrumRole role = SpectrumRole::Albedo) {
+    return Input(TextureKind::Spectrum, role);
+}
 
 template <class F>
 TextureContext<F> at(F u, F v, F footprint = F(0.f)) {
@@ -120,16 +122,22 @@ void expectColor(const Spectrum<float>& c, float r, float g, float b, float tole
     EXPECT_NEAR(c.b, b, tolerance);
 }
 
-Image grey(int width, int height, std::vector<float> values) { return Image(width, height, 1, std::move(values)); }
+Image grey(int width, int height, std::vector<float> values) {
+    return Image(width, height, 1, std::move(values));
+}
 Image bytes(int width, int height, int channels, std::vector<std::uint8_t> values,
             TransferFunction encoding = TransferFunction::linear()) {
     return Image(width, height, channels, std::move(values), encoding);
 }
 
 /// 4 x 2; the top row is 1 2 3 4, the bottom row 5 6 7 8.
-Image numbered() { return grey(4, 2, {1, 2, 3, 4, 5, 6, 7, 8}); }
+Image numbered() {
+    return grey(4, 2, {1, 2, 3, 4, 5, 6, 7, 8});
+}
 
-One imagemap(Input input) { return One("imagemap", std::move(input)); }
+One imagemap(Input input) {
+    return One("imagemap", std::move(input));
+}
 
 // ------------------------------------------------------------------------------------------------ places and borders
 
@@ -153,7 +161,7 @@ TEST(CoreImageTexture, TexelCentresAndBlends) {
 
 struct WrapCase {
     const char* wrap;
-    float left, right, above, below;   // bilinear, half a texel beyond each edge's centre
+    float left, right, above, below;  // bilinear, half a texel beyond each edge's centre
     float pointLeft, pointAbove;
 };
 
@@ -182,7 +190,7 @@ TEST(CoreImageTexture, WrapModes) {
 TEST(CoreImageTexture, CoordinatesFarAway) {
     const One repeat = imagemap(numberInput().file("a", numbered()));
     EXPECT_EQ(repeat.number(-6.875f, 3.75f), 1);
-    EXPECT_EQ(repeat.number(1e9f, 0.75f), 2.5f);   // the same as u = 0
+    EXPECT_EQ(repeat.number(1e9f, 0.75f), 2.5f);  // the same as u = 0
     const One black = imagemap(numberInput().file("a", numbered()).text("wrap", "black"));
     EXPECT_EQ(black.number(1e9f, 0.75f), 0);
     EXPECT_EQ(black.number(0.5f, -1e30f), 0);
@@ -207,12 +215,14 @@ TEST(CoreImageTexture, AnyBitsAsCoordinates) {
     }
     const One board("checkerboard", numberInput());
     for (const float u : hostile)
-        for (const float footprint : hostile) board.number(u, 0.5f, footprint);
+        for (const float footprint : hostile)
+            board.number(u, 0.5f, footprint);
 }
 
 TEST(CoreImageTexture, SmallestImages) {
     const One dot = imagemap(numberInput().file("a", grey(1, 1, {0.25f})).text("filter", "trilinear"));
-    for (const float u : {-3.f, 0.f, 0.3f, 1.f, 77.f}) EXPECT_EQ(dot.number(u, 1 - u, u), 0.25f);
+    for (const float u : {-3.f, 0.f, 0.3f, 1.f, 77.f})
+        EXPECT_EQ(dot.number(u, 1 - u, u), 0.25f);
     const One line = imagemap(numberInput().file("a", grey(1, 3, {3, 2, 1})));
     EXPECT_EQ(line.number(0.9f, 0.5f), 2);
     EXPECT_EQ(line.number(-5.f, 1.f / 6), 1);
@@ -231,8 +241,8 @@ TEST(CoreImageTexture, PyramidOfPowersOfTwo) {
 
 TEST(CoreImageTexture, PyramidOfOddSizesWeighsByArea) {
     const ImagePyramid p(grey(5, 1, {1, 2, 4, 8, 16}));
-    ASSERT_EQ(p.levelCount(), 4);   // 5, 3, 2, 1
-    EXPECT_FLOAT_EQ(p.texel(1, 0, 0).r, (1 * 3 + 2 * 2) / 5.f);   // each covers 5/3 texels
+    ASSERT_EQ(p.levelCount(), 4);                                // 5, 3, 2, 1
+    EXPECT_FLOAT_EQ(p.texel(1, 0, 0).r, (1 * 3 + 2 * 2) / 5.f);  // each covers 5/3 texels
     EXPECT_FLOAT_EQ(p.texel(1, 1, 0).r, (2 * 1 + 4 * 3 + 8 * 1) / 5.f);
     EXPECT_FLOAT_EQ(p.texel(1, 2, 0).r, (8 * 2 + 16 * 3) / 5.f);
     EXPECT_FLOAT_EQ(p.texel(3, 0, 0).r, 31 / 5.f);
@@ -243,8 +253,10 @@ TEST(CoreImageTexture, PyramidKeepsTheMean) {
     for (const auto& [width, height] : {std::pair{7, 13}, {64, 33}, {1, 100}, {100, 3}, {31, 1}}) {
         std::vector<float> values(std::size_t(width) * height * 3);
         double mean = 0;
-        for (float& v : values) v = float(random() & 0xFFFF) / 65536.f;
-        for (std::size_t i = 0; i < values.size(); i += 3) mean += values[i];
+        for (float& v : values)
+            v = float(random() & 0xFFFF) / 65536.f;
+        for (std::size_t i = 0; i < values.size(); i += 3)
+            mean += values[i];
         mean /= width * height;
         const ImagePyramid p(Image(width, height, 3, values));
         EXPECT_NEAR(p.texel(p.levelCount() - 1, 0, 0).r, mean, 1e-6) << width << " x " << height;
@@ -260,14 +272,14 @@ TEST(CoreImageTexture, BytesAreAveragedInLinearLight) {
 
 TEST(CoreImageTexture, BytesAreRoundedOnceToTheNearestCode) {
     std::mt19937 random(2);
-    for (const TransferFunction& encoding :
-         {TransferFunction::linear(), TransferFunction::srgb(), TransferFunction::gamma(2.2f), TransferFunction::gamma(0.5f)}) {
+    for (const TransferFunction& encoding : {TransferFunction::linear(), TransferFunction::srgb(),
+                                             TransferFunction::gamma(2.2f), TransferFunction::gamma(0.5f)}) {
         SCOPED_TRACE(encoding.name());
         const std::array<float, 256> decode = encoding.decodeTable();
         const int size = 64;
         std::vector<std::uint8_t> codes(size * size);
         std::vector<float> linear(size * size);
-        const std::uint32_t mask = 0x3F;   // dark values too: there the codes lie nearest
+        const std::uint32_t mask = 0x3F;  // dark values too: there the codes lie nearest
         for (std::size_t i = 0; i < codes.size(); ++i) {
             codes[i] = std::uint8_t(i % 128 < 64 ? random() & mask : random() & 0xFF);
             linear[i] = decode[codes[i]];
@@ -277,7 +289,8 @@ TEST(CoreImageTexture, BytesAreRoundedOnceToTheNearestCode) {
             for (int i = 0, n = size >> level; i < n * n; ++i) {
                 const float value = exact.texel(level, i % n, i / n).r, stored = rounded.texel(level, i % n, i / n).r;
                 float best = 2;
-                for (const float d : decode) best = std::fabs(d - value) < std::fabs(best - value) ? d : best;
+                for (const float d : decode)
+                    best = std::fabs(d - value) < std::fabs(best - value) ? d : best;
                 EXPECT_NEAR(std::fabs(stored - value), std::fabs(best - value), 1e-6f);
             }
         }
@@ -286,22 +299,23 @@ TEST(CoreImageTexture, BytesAreRoundedOnceToTheNearestCode) {
 
 TEST(CoreImageTexture, LevelFollowsTheFootprint) {
     std::vector<float> values(16);
-    for (std::size_t i = 0; i < 16; ++i) values[i] = i % 4 < 2 ? 0.f : 1.f;   // left half 0, right half 1
+    for (std::size_t i = 0; i < 16; ++i)
+        values[i] = i % 4 < 2 ? 0.f : 1.f;  // left half 0, right half 1
     values[0] = 16;
-    const Image image = grey(4, 4, values);   // levels: texel (0, 0) 16, then (16 + 0 + 0 + 0) / 4, then the mean
+    const Image image = grey(4, 4, values);  // levels: texel (0, 0) 16, then (16 + 0 + 0 + 0) / 4, then the mean
     const One t = imagemap(numberInput().file("a", image).text("filter", "point"));
     const float mean = (16 + 8) / 16.f;
     // w = 2 footprints covers w * 4 texels; the level is floor(log2) of that.
     EXPECT_EQ(t.number(0.01f, 0.99f, 0), 16);
-    EXPECT_EQ(t.number(0.01f, 0.99f, 0.124f), 16);    // 0.99 texels
-    EXPECT_EQ(t.number(0.01f, 0.99f, 0.249f), 16);    // 1.99
-    EXPECT_EQ(t.number(0.01f, 0.99f, 0.25f), 4);      // 2: level 1
+    EXPECT_EQ(t.number(0.01f, 0.99f, 0.124f), 16);  // 0.99 texels
+    EXPECT_EQ(t.number(0.01f, 0.99f, 0.249f), 16);  // 1.99
+    EXPECT_EQ(t.number(0.01f, 0.99f, 0.25f), 4);    // 2: level 1
     EXPECT_EQ(t.number(0.01f, 0.99f, 0.499f), 4);
-    EXPECT_EQ(t.number(0.01f, 0.99f, 0.5f), mean);    // 4: level 2
+    EXPECT_EQ(t.number(0.01f, 0.99f, 0.5f), mean);  // 4: level 2
     EXPECT_EQ(t.number(0.01f, 0.99f, 1e30f), mean);
     // The mapping stretches the footprint, by the larger factor.
-    const One stretched = imagemap(
-        numberInput().file("a", image).text("filter", "point").number("uscale", 0.5f).number("vscale", -2));
+    const One stretched =
+        imagemap(numberInput().file("a", image).text("filter", "point").number("uscale", 0.5f).number("vscale", -2));
     EXPECT_EQ(stretched.number(0.02f, 0.005f, 0.124f), 16);
     EXPECT_EQ(stretched.number(0.02f, 0.005f, 0.126f), 4);
 }
@@ -314,7 +328,7 @@ TEST(CoreImageTexture, BilinearTakesTheFinerLevelAndTrilinearBlends) {
     const One bilinear = make("bilinear"), trilinear = make("trilinear");
     EXPECT_EQ(bilinear.number(0, 1, 0.2f), 16);
     EXPECT_EQ(trilinear.number(0, 1, 0.125f), 16);
-    for (const float covered : {1.25f, 1.9f, 2.f, 3.f, 3.999f, 4.f, 9.f}) {   // texels
+    for (const float covered : {1.25f, 1.9f, 2.f, 3.f, 3.999f, 4.f, 9.f}) {  // texels
         const float level = std::min(std::log2(covered), 2.f);
         const float expected = level < 1 ? 16 + (4 - 16) * level : 4 + (1 - 4) * (level - 1);
         EXPECT_NEAR(trilinear.number(0, 1, covered / 8), expected, 1e-5f) << covered;
@@ -325,7 +339,9 @@ TEST(CoreImageTexture, BilinearTakesTheFinerLevelAndTrilinearBlends) {
 
 TEST(CoreImageTexture, EqualTexelsGiveTheirExactValue) {
     std::mt19937 random(3);
-    const One t = imagemap(numberInput().file("a", bytes(37, 5, 3, std::vector<std::uint8_t>(37 * 5 * 3, 187))).text("filter", "trilinear"));
+    const One t = imagemap(numberInput()
+                               .file("a", bytes(37, 5, 3, std::vector<std::uint8_t>(37 * 5 * 3, 187)))
+                               .text("filter", "trilinear"));
     for (int i = 0; i < 1000; ++i) {
         const auto next = [&] { return float(random()) * 0x1p-32f; };
         EXPECT_EQ(t.number(next(), next(), next()), 187 / 255.f);
@@ -341,14 +357,16 @@ TEST(CoreImageTexture, EncodingsDecodeThroughTheTable) {
         std::vector<std::uint8_t> ramp(256), rgb;
         for (int i = 0; i < 256; ++i) {
             ramp[std::size_t(i)] = std::uint8_t(i);
-            for (const int c : {i, 255 - i, i / 2}) rgb.push_back(std::uint8_t(c));
+            for (const int c : {i, 255 - i, i / 2})
+                rgb.push_back(std::uint8_t(c));
         }
         const One number = imagemap(numberInput().file("a", bytes(256, 1, 1, ramp, encoding)));
         const One color = imagemap(colorInput().file("a", bytes(256, 1, 3, rgb, encoding)));
         for (int i = 0; i < 256; ++i) {
             const float u = (float(i) + 0.5f) / 256;
             EXPECT_EQ(number.number(u, 0.5f), decode[std::size_t(i)]);
-            expectColor(color.color(u, 0.5f), decode[std::size_t(i)], decode[std::size_t(255 - i)], decode[std::size_t(i / 2)]);
+            expectColor(color.color(u, 0.5f), decode[std::size_t(i)], decode[std::size_t(255 - i)],
+                        decode[std::size_t(i / 2)]);
         }
     }
 }
@@ -357,10 +375,10 @@ TEST(CoreImageTexture, ScaleThenInvert) {
     const Image image = grey(2, 1, {0.25f, 0.75f});
     const One scaled = imagemap(numberInput().file("a", image).number("scale", 2));
     EXPECT_EQ(scaled.number(0.25f, 0.5f), 0.5f);
-    EXPECT_EQ(scaled.number(0.75f, 0.5f), 1.5f);   // a number is not clamped
+    EXPECT_EQ(scaled.number(0.75f, 0.5f), 1.5f);  // a number is not clamped
     const One inverted = imagemap(numberInput().file("a", image).number("scale", 2).flag("invert", true));
     EXPECT_EQ(inverted.number(0.25f, 0.5f), 0.5f);
-    EXPECT_EQ(inverted.number(0.75f, 0.5f), 0);   // 1 - 1.5, not below 0
+    EXPECT_EQ(inverted.number(0.75f, 0.5f), 0);  // 1 - 1.5, not below 0
     const One color = imagemap(colorInput().file("a", Image(1, 1, 3, {0.25f, 0.5f, 4.f})).flag("invert", true));
     expectColor(color.color(0.5f, 0.5f), 0.75f, 0.5f, 0);
 }
@@ -373,8 +391,8 @@ TEST(CoreImageTexture, MappingScalesAndShifts) {
                                .number("vscale", -1)
                                .number("udelta", 0.25f)
                                .number("vdelta", 1));
-    EXPECT_EQ(t.number(0.05f, 0.25f), 2);   // (0.35, 0.75)
-    EXPECT_EQ(t.number(0.3f, 0.75f), 8);    // (0.85, 0.25)
+    EXPECT_EQ(t.number(0.05f, 0.25f), 2);  // (0.35, 0.75)
+    EXPECT_EQ(t.number(0.3f, 0.75f), 8);   // (0.85, 0.25)
 }
 
 TEST(CoreImageTexture, NumbersFromColours) {
@@ -398,11 +416,13 @@ TEST(CoreImageTexture, NumbersFromColours) {
 TEST(CoreImageTexture, GreyBytesOfEverySizeUnpack) {
     for (int width = 1; width <= 9; ++width) {
         std::vector<std::uint8_t> codes(std::size_t(width) * 3);
-        for (std::size_t i = 0; i < codes.size(); ++i) codes[i] = std::uint8_t(200 - 7 * i);
+        for (std::size_t i = 0; i < codes.size(); ++i)
+            codes[i] = std::uint8_t(200 - 7 * i);
         const ImagePyramid p(bytes(width, 3, 1, codes));
         for (int y = 0; y < 3; ++y)
             for (int x = 0; x < width; ++x)
-                EXPECT_EQ(p.texel(0, x, y).g, float(codes[std::size_t(y * width + x)]) / 255) << width << " " << x << " " << y;
+                EXPECT_EQ(p.texel(0, x, y).g, float(codes[std::size_t(y * width + x)]) / 255)
+                    << width << " " << x << " " << y;
     }
 }
 
@@ -426,7 +446,7 @@ TEST(CoreImageTexture, ColoursGoToTheFilmsSpace) {
     const Rgb reflectance = apply(reflectanceConversion(aces, wide), c), light = apply(lightConversion(aces, wide), c);
     expectColor(lookUp(SpectrumRole::Albedo), reflectance.r, reflectance.g, reflectance.b, 1e-6f);
     expectColor(lookUp(SpectrumRole::Illuminant), light.r, light.g, light.b, 1e-6f);
-    EXPECT_GT(std::fabs(light.r - reflectance.r), 1e-3f);   // the two differ, so the test can tell them apart
+    EXPECT_GT(std::fabs(light.r - reflectance.r), 1e-3f);  // the two differ, so the test can tell them apart
     // Bytes too, and numbers are never converted.
     Input input = colorInput().file("a", bytes(1, 1, 3, {51, 102, 153}));
     input.film = &wide;
@@ -495,16 +515,19 @@ TEST(CoreImageTexture, CheckerboardIsFilteredByATent) {
             const float u = i < 2 ? float(1 + (i - 0.4) * footprint) : place(), v = place();
             const double stripes = stripesByIntegration(double(u), 1.5 * footprint) *
                                    stripesByIntegration(double(0.5f * v), 0.75 * footprint);
-            EXPECT_NEAR(t.number(u, v, float(footprint)), 0.5 + 0.5 * stripes, 3e-5) << u << " " << v << " " << footprint;
+            EXPECT_NEAR(t.number(u, v, float(footprint)), 0.5 + 0.5 * stripes, 3e-5)
+                << u << " " << v << " " << footprint;
         }
     }
     EXPECT_NEAR(t.number(0.3f, 0.4f, 1e20f), 0.5f, 1e-6f);
-    EXPECT_EQ(t.number(1, 0.4f, 0.1f), 0.5f);   // on an edge: half of each
+    EXPECT_EQ(t.number(1, 0.4f, 0.1f), 0.5f);  // on an edge: half of each
 }
 
 TEST(CoreImageTexture, CheckerboardWeighsOnlyWhatItSees) {
     // Inside a cell the value is exactly that cell's, whatever the other is.
-    const One t("checkerboard", numberInput().operand("tex1", TextureOperand::number(0.1f)).operand("tex2", TextureOperand::number(1e30f)));
+    const One t(
+        "checkerboard",
+        numberInput().operand("tex1", TextureOperand::number(0.1f)).operand("tex2", TextureOperand::number(1e30f)));
     EXPECT_EQ(t.number(0.5f, 0.5f, 0.01f), 0.1f);
     EXPECT_EQ(t.number(1.5f, 0.5f, 0.01f), 1e30f);
 }
@@ -528,11 +551,12 @@ TEST(CoreImageTexture, ScaleOfTextures) {
     Textures textures;
     Input colors = colorInput().file("c", Image(2, 1, 3, {0.5f, 0.25f, 1, 1, 0.5f, 0.125f})).text("filter", "point");
     Input numbers = numberInput().file("n", grey(1, 2, {0.5f, 3})).text("filter", "point");
-    Input product =
-        colorInput().operand("tex", textures.add("imagemap", colors)).operand("scale", textures.add("imagemap", numbers));
+    Input product = colorInput()
+                        .operand("tex", textures.add("imagemap", colors))
+                        .operand("scale", textures.add("imagemap", numbers));
     const TextureOperand made = textures.add("scale", product);
     expectColor(textures.spectrum<float>(made.texture, at(0.25f, 0.75f)), 0.25f, 0.125f, 0.5f);
-    expectColor(textures.spectrum<float>(made.texture, at(0.25f, 0.25f)), 1, 0.75f, 1);   // an albedo: clamped
+    expectColor(textures.spectrum<float>(made.texture, at(0.25f, 0.25f)), 1, 0.75f, 1);  // an albedo: clamped
     expectColor(textures.spectrum<float>(made.texture, at(0.75f, 0.25f)), 1, 1, 0.375f);
     // Only whoever looks an albedo up gets it clamped: a scale outside may bring 1.5 back.
     Input dimmed = colorInput().operand("tex", made).operand("scale", TextureOperand::number(0.5f));
@@ -546,7 +570,8 @@ TEST(CoreImageTexture, AConstantScaleOfAnImageComesBeforeItsInversion) {
     const TextureOperand inverted = textures.add("imagemap", image);
     Input first = numberInput().operand("tex", inverted).operand("scale", TextureOperand::number(2));
     Input second = numberInput().operand("scale", inverted).operand("tex", TextureOperand::number(2));
-    Input third = numberInput().operand("tex", textures.add("scale", first)).operand("scale", TextureOperand::number(1.5f));
+    Input third =
+        numberInput().operand("tex", textures.add("scale", first)).operand("scale", TextureOperand::number(1.5f));
     EXPECT_EQ(textures.scalar<float>(inverted.texture, at(0.5f, 0.5f)), 0.75f);
     for (Input* input : {&first, &second})
         EXPECT_EQ(textures.scalar<float>(textures.add("scale", *input).texture, at(0.5f, 0.5f)), 0.5f);
@@ -580,7 +605,7 @@ TEST(CoreImageTexture, DepthAndCostAreBounded) {
         }
         FAIL() << "no limit";
     } catch (const Error& error) {
-        EXPECT_EQ(made, 7u);   // 2^8 - 1 evaluations are allowed, 2^9 - 1 are not
+        EXPECT_EQ(made, 7u);  // 2^8 - 1 evaluations are allowed, 2^9 - 1 are not
         EXPECT_NE(std::string(error.what()).find("511"), std::string::npos) << error.what();
     }
 }
@@ -594,7 +619,8 @@ TEST(CoreImageTexture, OneImageForAllThatUseTheFile) {
     Input c = numberInput().file("a", numbered()).text("wrap", "clamp");
     Input d = numberInput().file("a", numbered()).text("encoding", "linear");
     Input e = numberInput().file("b", numbered());
-    for (Input* input : {&a, &b, &c}) textures.add("imagemap", *input);
+    for (Input* input : {&a, &b, &c})
+        textures.add("imagemap", *input);
     EXPECT_EQ(textures.imageCount(), 1u);
     EXPECT_EQ(a.reads + b.reads + c.reads, 1);
     textures.add("imagemap", d);
@@ -611,7 +637,9 @@ TEST(CoreImageTexture, MemoryIsCounted) {
         return textures.bytes();
     };
     const std::size_t texels = 256 * 256, all = texels * 4 / 3, fixed = 4096;
-    const auto near = [&](std::size_t bytes, std::size_t expected) { return bytes >= expected && bytes < expected + fixed; };
+    const auto near = [&](std::size_t bytes, std::size_t expected) {
+        return bytes >= expected && bytes < expected + fixed;
+    };
     EXPECT_TRUE(near(held(bytes(256, 256, 1, std::vector<std::uint8_t>(texels))), all));
     EXPECT_TRUE(near(held(bytes(256, 256, 3, std::vector<std::uint8_t>(texels * 3))), all * 4));
     EXPECT_TRUE(near(held(bytes(256, 256, 4, std::vector<std::uint8_t>(texels * 4))), all * 4));
@@ -655,7 +683,9 @@ TEST(CoreImageTexture, ErrorsAndWarningsSayWhere) {
 
 // ------------------------------------------------------------------------------------------------ lanes
 
-std::uint32_t bitsOf(float x) { return std::isnan(x) ? 0x7FC00000u : floatBits(x); }
+std::uint32_t bitsOf(float x) {
+    return std::isnan(x) ? 0x7FC00000u : floatBits(x);
+}
 
 /// A scene of every format, wrap mode, filter and class: ids of numbers and of colours.
 struct Zoo {
@@ -670,8 +700,10 @@ struct Zoo {
                 const std::size_t n = std::size_t(width * height * channels);
                 std::vector<std::uint8_t> codes(n);
                 std::vector<float> values(n);
-                for (std::uint8_t& c : codes) c = std::uint8_t(random());
-                for (float& v : values) v = float(random() >> 8) * 0x1p-23f - 0.25f;
+                for (std::uint8_t& c : codes)
+                    c = std::uint8_t(random());
+                for (float& v : values)
+                    v = float(random() >> 8) * 0x1p-23f - 0.25f;
                 images.push_back(bytes(width, height, channels, codes, TransferFunction::srgb()));
                 images.push_back(Image(width, height, channels, values, *findColorSpace("rec2020")));
             }
@@ -681,7 +713,9 @@ struct Zoo {
         for (std::size_t i = 0; i < images.size() * 12; ++i) {
             const std::size_t image = i / 12;
             const auto fill = [&](Input input) {
-                input.file(std::to_string(image), images[image]).text("wrap", wraps[i % 4]).text("filter", filters[i % 3]);
+                input.file(std::to_string(image), images[image])
+                    .text("wrap", wraps[i % 4])
+                    .text("filter", filters[i % 3]);
                 return input.flag("invert", i % 5 == 0).number("uscale", 3).number("vscale", -2).number("udelta", 0.1f);
             };
             add("imagemap", fill(numberInput()), numbers);
@@ -707,10 +741,14 @@ TEST(CoreImageTexture, OneLaneAndEightGiveTheSameBits) {
     std::mt19937 random(6);
     const auto coordinate = [&]() -> float {
         switch (random() % 16) {
-            case 0: return kNaN;
-            case 1: return float(std::int32_t(random())) * 1e3f;
-            case 2: return float(random() % 9) * 0.25f - 1;
-            default: return float(std::int32_t(random())) * 0x1p-30f;
+            case 0:
+                return kNaN;
+            case 1:
+                return float(std::int32_t(random())) * 1e3f;
+            case 2:
+                return float(random() % 9) * 0.25f - 1;
+            default:
+                return float(std::int32_t(random())) * 0x1p-30f;
         }
     };
     std::size_t coloured = 0;
@@ -734,7 +772,8 @@ TEST(CoreImageTexture, OneLaneAndEightGiveTheSameBits) {
             const TextureContext<float> one = at(lane(wide.uv.x, i), lane(wide.uv.y, i), lane(wide.footprint, i));
             const float x1 = zoo.textures.scalar<float>(lane(number, i), one);
             const Spectrum<float> c1 = zoo.textures.spectrum<float>(lane(color, i), one), c8 = lane(c, i);
-            ASSERT_EQ(bitsOf(lane(x, i)), bitsOf(x1)) << "number " << lane(number, i) << ": " << lane(x, i) << " " << x1;
+            ASSERT_EQ(bitsOf(lane(x, i)), bitsOf(x1))
+                << "number " << lane(number, i) << ": " << lane(x, i) << " " << x1;
             ASSERT_EQ(bitsOf(c8.r), bitsOf(c1.r)) << "colour " << lane(color, i);
             ASSERT_EQ(bitsOf(c8.g), bitsOf(c1.g)) << "colour " << lane(color, i);
             ASSERT_EQ(bitsOf(c8.b), bitsOf(c1.b)) << "colour " << lane(color, i);
@@ -744,7 +783,7 @@ TEST(CoreImageTexture, OneLaneAndEightGiveTheSameBits) {
             coloured += c1.r != c1.g && x1 != 0;
         }
     }
-    EXPECT_GT(coloured, 100000u);   // the groups were not mostly black or grey
+    EXPECT_GT(coloured, 100000u);  // the groups were not mostly black or grey
 }
 
 TEST(CoreImageTexture, MixedGroupsGiveEveryLaneItsOwn) {
@@ -757,9 +796,11 @@ TEST(CoreImageTexture, MixedGroupsGiveEveryLaneItsOwn) {
     const std::uint32_t group[] = {ids[2], ids[0], kNoTexture, ids[0], ids[1], ids[2], kNoTexture, ids[1]};
     const float expected[] = {3, 1, 0, 1, 2, 3, 0, 2};
     const Lanes8f out = textures.scalar<Lanes8f>(load<Lanes8f>(group), at(Lanes8f(0.5f), Lanes8f(0.5f)));
-    for (int i = 0; i < 8; ++i) EXPECT_EQ(lane(out, i), expected[i]);
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(lane(out, i), expected[i]);
     const Lanes8f nothing = textures.scalar<Lanes8f>(Lanes8u(kNoTexture), at(Lanes8f(0.5f), Lanes8f(0.5f)));
-    for (int i = 0; i < 8; ++i) EXPECT_EQ(lane(nothing, i), 0);
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(lane(nothing, i), 0);
 }
 
 }  // namespace

@@ -4,13 +4,9 @@
 #include "core/image/texture_registry.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace penumbra {
 namespace {
-
-template <class... Ts>
-std::tuple<std::vector<Ts>...> rowsOf(TypeList<Ts...>);
 
 template <class T>
 concept EvaluatedTexture = requires(const T& t, const TextureContext<float>& at, const TextureTables& tables) {
@@ -44,33 +40,10 @@ V forEachTexture(const UInt<F>& texture, const Function& f) {
 
 }  // namespace
 
-struct TextureRows {
-    decltype(rowsOf(TextureTypes{})) rows;
-};
-
 // ---------------------------------------------------------------------------------------------------- TextureTables
 
 TextureTables::TextureTables() : rows_(std::make_unique<TextureRows>()) {}
 TextureTables::~TextureTables() = default;
-
-template <class T>
-std::vector<T>& TextureTables::rows() {
-    return std::get<std::vector<T>>(rows_->rows);
-}
-template <class T>
-const std::vector<T>& TextureTables::rows() const {
-    return std::get<std::vector<T>>(rows_->rows);
-}
-
-template <class T>
-TextureOperand TextureTables::append(const T& row, std::initializer_list<TextureOperand> uses, TextureInput& input) {
-    Node node;
-    node.tag = kTagOf<T, TextureTypes>;
-    node.row = std::uint32_t(rows<T>().size());
-    const TextureOperand operand = appendNode(node, uses, input);
-    rows<T>().push_back(row);
-    return operand;
-}
 
 TextureOperand TextureTables::appendNode(Node node, std::initializer_list<TextureOperand> uses, TextureInput& input) {
     for (const TextureOperand& use : uses) {
@@ -86,13 +59,6 @@ TextureOperand TextureTables::appendNode(Node node, std::initializer_list<Textur
     node.albedo = input.kind() == TextureKind::Spectrum && input.role() == SpectrumRole::Albedo;
     nodes_.push_back(node);
     return {{}, std::uint32_t(nodes_.size() - 1)};
-}
-
-template <class T>
-const T* TextureTables::find(const TextureOperand& operand) const {
-    if (operand.isConstant()) return nullptr;
-    const Node& node = nodes_[operand.texture];
-    return node.tag == kTagOf<T, TextureTypes> ? &rows<T>()[node.row] : nullptr;
 }
 
 std::uint32_t TextureTables::addImage(const std::string& path, TransferFunction pngEncoding, TextureInput& input) {
@@ -119,7 +85,8 @@ std::uint32_t TextureTables::addImage(const std::string& path, TransferFunction 
 std::size_t TextureTables::bytes() const {
     std::size_t sum = nodes_.size() * sizeof(Node);
     forEachType(TextureTypes{}, [&]<class T>() { sum += rows<T>().size() * sizeof(T); });
-    for (const ImagePyramid& image : images_) sum += image.bytes();
+    for (const ImagePyramid& image : images_)
+        sum += image.bytes();
     return sum;
 }
 
@@ -183,8 +150,14 @@ template Spectrum<Lanes8f> Textures::spectrum<Lanes8f>(const Lanes8u&, const Tex
 template float Textures::scalar<float>(const std::uint32_t&, const TextureContext<float>&) const;
 template Lanes8f Textures::scalar<Lanes8f>(const Lanes8u&, const TextureContext<Lanes8f>&) const;
 
-std::size_t Textures::count() const { return tables_->count(); }
-std::size_t Textures::imageCount() const { return tables_->imageCount(); }
-std::size_t Textures::bytes() const { return tables_->bytes(); }
+std::size_t Textures::count() const {
+    return tables_->count();
+}
+std::size_t Textures::imageCount() const {
+    return tables_->imageCount();
+}
+std::size_t Textures::bytes() const {
+    return tables_->bytes();
+}
 
 }  // namespace penumbra

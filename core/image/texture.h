@@ -1,11 +1,12 @@
-// Textures: functions of the surface that materials look up at a hit, over lanes; and how the scene's builder makes them.
+// Textures: functions of the surface that materials look up at a hit, over lanes; and how the scene's builder makes
+// them.
 //
-// Conventions: uv as the shape gives them; `footprint` is the full width that the ray's cone covers there, in units of uv
-// (0: a point). The cone of a camera ray is one pixel wide (less at many samples a pixel), so the footprint stands for
-// max(|du/dx|, |dv/dx|, |du/dy|, |dv/dy|) in the formulas of the pbrt format: the w of its image maps is twice the
+// Conventions: uv as the shape gives them; `footprint` is the full width that the ray's cone covers there, in units of
+// uv (0: a point). The cone of a camera ray is one pixel wide (less at many samples a pixel), so the footprint stands
+// for max(|du/dx|, |dv/dx|, |du/dy|, |dv/dy|) in the formulas of the pbrt format: the w of its image maps is twice the
 // footprint, and its checkerboard spreads over 1.5 footprints to either side.
-// Texture ids index one table for the whole scene. A texture has a kind, and one of kind Spectrum a role; one texture of a
-// scene file that is used under two roles is added twice (and shares its image). kNoTexture means "no texture".
+// Texture ids index one table for the whole scene. A texture has a kind, and one of kind Spectrum a role; one texture
+// of a scene file that is used under two roles is added twice (and shares its image). kNoTexture means "no texture".
 // Spectra are linear RGB in the film's colour space. Where the role is Albedo, spectrum() gives values in [0, 1].
 //
 // Thread safety: add() from one thread; after that immutable, look-ups from any number of threads.
@@ -33,13 +34,13 @@ template <class F>
 struct TextureContext {
     Vec2<F> uv;
     F footprint;
-    Vec3<F> p;            ///< world-space point, for mappings that are not uv
+    Vec3<F> p;  ///< world-space point, for mappings that are not uv
 };
 
 enum class TextureKind { Float, Spectrum };
 
-/// A constant, or a texture of the table: a parameter of a texture, and what a texture of a scene file becomes. A number
-/// stands in all three channels.
+/// A constant, or a texture of the table: a parameter of a texture, and what a texture of a scene file becomes. A
+/// number stands in all three channels.
 struct TextureOperand {
     Spectrum<float> constant{};
     std::uint32_t texture = kNoTexture;
@@ -54,7 +55,7 @@ class TextureInput {
 public:
     virtual ~TextureInput() = default;
     virtual TextureKind kind() const = 0;
-    virtual SpectrumRole role() const = 0;                        ///< where kind() is Spectrum
+    virtual SpectrumRole role() const = 0;  ///< where kind() is Spectrum
     virtual const ColorSpace& filmColorSpace() const = 0;
     /// "spectrum" texture, or any spectrum, under this texture's role.
     virtual TextureOperand spectrum(std::string_view name, Rgb otherwise) = 0;
@@ -85,22 +86,24 @@ public:
     Textures(Textures&&) noexcept;
     Textures& operator=(Textures&&) noexcept;
 
-    /// Makes one texture of the class that a scene file names; see texture_registry.h for the classes there are. Textures
-    /// that are constant (constants, their products) come back as constants, not clamped whatever the role.
+    /// Makes one texture of the class that a scene file names; see texture_registry.h for the classes there are.
+    /// Textures that are constant (constants, their products) come back as constants, not clamped whatever the role.
     /// Throws Error: BadData, MissingInput for an image that is not there. REQUIRES: knows(className).
     TextureOperand add(std::string_view className, TextureInput& input);
     static bool knows(std::string_view className);
 
-    /// Values at every lane's own texture; lanes with kNoTexture get 0. Ids of different textures may stand in one group;
-    /// a group that shares one is quickest. REQUIRES: ids of kind Spectrum.
-    template <class F> Spectrum<F> spectrum(const UInt<F>& texture, const TextureContext<F>& at) const;
-    /// The same for ids of kind Float. Of an image this is the mean of r, g, b, or alpha where an image with alpha is not
-    /// opaque everywhere (the pbrt format's rule).
-    template <class F> F scalar(const UInt<F>& texture, const TextureContext<F>& at) const;
+    /// Values at every lane's own texture; lanes with kNoTexture get 0. Ids of different textures may stand in one
+    /// group; a group that shares one is quickest. REQUIRES: ids of kind Spectrum.
+    template <class F>
+    Spectrum<F> spectrum(const UInt<F>& texture, const TextureContext<F>& at) const;
+    /// The same for ids of kind Float. Of an image this is the mean of r, g, b, or alpha where an image with alpha is
+    /// not opaque everywhere (the pbrt format's rule).
+    template <class F>
+    F scalar(const UInt<F>& texture, const TextureContext<F>& at) const;
 
-    std::size_t count() const;        ///< of textures in the table
-    std::size_t imageCount() const;   ///< of images, each shared by the textures that use it
-    std::size_t bytes() const;        ///< of memory held, images included
+    std::size_t count() const;       ///< of textures in the table
+    std::size_t imageCount() const;  ///< of images, each shared by the textures that use it
+    std::size_t bytes() const;       ///< of memory held, images included
 
 private:
     std::unique_ptr<TextureTables> tables_;

@@ -1,8 +1,9 @@
-// checkerboard: squares of side 1 in the plane of (s, t), tex1 where floor(s) + floor(t) is even and tex2 where it is odd.
+// checkerboard: squares of side 1 in the plane of (s, t), tex1 where floor(s) + floor(t) is even and tex2 where it is
+// odd.
 //
-// It is filtered exactly by a tent along each axis that reaches 1.5 footprints to either side, as the pbrt format does. With
-// the signs +1 and -1 for the two sorts of stripes along an axis, the filtered board is the product of the filtered
-// stripes of s and of t, because tent and board are both products.
+// It is filtered exactly by a tent along each axis that reaches 1.5 footprints to either side, as the pbrt format does.
+// With the signs +1 and -1 for the two sorts of stripes along an axis, the filtered board is the product of the
+// filtered stripes of s and of t, because tent and board are both products.
 #pragma once
 
 #include "core/image/texture_mapping.h"
@@ -15,8 +16,11 @@ struct CheckerboardTexture {
         {"spectrum or float texture", "tex1", "1", "the squares where floor(s) + floor(t) is even"},
         {"spectrum or float texture", "tex2", "0", "the other squares"},
         {"integer", "dimension", "2", "of the board; 2"},
-        TextureMapping::kMapping, TextureMapping::kUScale, TextureMapping::kVScale,
-        TextureMapping::kUDelta,  TextureMapping::kVDelta,
+        TextureMapping::kMapping,
+        TextureMapping::kUScale,
+        TextureMapping::kVScale,
+        TextureMapping::kUDelta,
+        TextureMapping::kVDelta,
     };
     static constexpr PluginInfo kInfo{"checkerboard", "squares of two textures", kParameters};
 
@@ -38,7 +42,7 @@ struct CheckerboardTexture {
     V evaluate(const TextureContext<F>& at, const TextureTables& tables) const {
         const MappedPoint<F> m = mapping.map(at);
         const F board = stripes(m.s, F(1.5f) * m.widthS) * stripes(m.t, F(1.5f) * m.widthT);
-        const F weight = clamp(F(0.5f) + F(0.5f) * board, F(0.f), F(1.f));   // NaN becomes 0
+        const F weight = clamp(F(0.5f) + F(0.5f) * board, F(0.f), F(1.f));  // NaN becomes 0
         const Mask<F> needsEven = weight > F(0.f), needsOdd = weight < F(1.f);
         const V a = any(needsEven) ? tables.value<V>(even, at) : V{};
         const V b = any(needsOdd) ? tables.value<V>(odd, at) : V{};
@@ -48,15 +52,17 @@ struct CheckerboardTexture {
     /// Stripes of width 1, +1 where floor(x) is even and -1 where it is odd, under a tent of half-width r.
     template <class F>
     static F stripes(F x, F r) {
-        x = x - F(2.f) * floor(x * F(0.5f));   // [0, 2]: the period
+        x = x - F(2.f) * floor(x * F(0.5f));  // [0, 2]: the period
         r = clamp(r, F(0.f), F(1e6f));
         // Narrow: only the nearest edge matters. To its right it is the cumulative tent, times two, minus one.
         const F edge = floor(x + F(0.5f));
         const F offset = x - edge;
         const F d = clamp(offset / max(r, F(1e-30f)), F(-1.f), F(1.f));
-        const F narrow = sign(edge) * select(r > F(0.f), d * (F(2.f) - abs(d)), select(offset < F(0.f), F(-1.f), F(1.f)));
+        const F narrow =
+            sign(edge) * select(r > F(0.f), d * (F(2.f) - abs(d)), select(offset < F(0.f), F(-1.f), F(1.f)));
         // Wide: the second difference of the second antiderivative, which is a tent's convolution.
-        const F wide = (antiderivative(x + r) - F(2.f) * antiderivative(x) + antiderivative(x - r)) / max(r * r, F(0.25f));
+        const F wide =
+            (antiderivative(x + r) - F(2.f) * antiderivative(x) + antiderivative(x - r)) / max(r * r, F(0.25f));
         return select(r <= F(0.5f), narrow, clamp(wide, F(-1.f), F(1.f)));
     }
 

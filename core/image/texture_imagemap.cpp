@@ -1,5 +1,7 @@
 #include "core/image/texture_imagemap.h"
 
+#include "core/image/texture_registry.h"
+
 #include <algorithm>
 #include <string>
 
@@ -23,7 +25,7 @@ WrapMode readWrap(TextureInput& input) {
 TextureFilter readFilter(TextureInput& input) {
     constexpr TextureFilter kFilters[] = {TextureFilter::Point, TextureFilter::Bilinear, TextureFilter::Trilinear};
     const std::size_t i = choose(input, "filter", {"point", "bilinear", "trilinear", "ewa"}, "bilinear");
-    input.parameters().number("maxanisotropy", 8.f);   // of ewa: known, though not used
+    input.parameters().number("maxanisotropy", 8.f);  // of ewa: known, though not used
     if (i < std::size(kFilters)) return kFilters[i];
     input.warn("the filter 'ewa' is not there yet; it counts as 'trilinear'");
     return TextureFilter::Trilinear;
@@ -57,7 +59,8 @@ TextureOperand ImageTexture::make(TextureInput& input, TextureTables& tables) {
         const Matrix3 m = conversion(input, tables.image(t.image).colorSpace());
         t.converts = m != Matrix3{};
         for (std::size_t row = 0; row < 3; ++row)
-            for (std::size_t column = 0; column < 3; ++column) t.toFilm[row][column] = float(m.m[row][column]);
+            for (std::size_t column = 0; column < 3; ++column)
+                t.toFilm[row][column] = float(m.m[row][column]);
     }
     return tables.append(t, {}, input);
 }

@@ -19,8 +19,11 @@ struct ImageTexture {
         {"float", "scale", "1", "factor of the texels"},
         {"bool", "invert", "false", "1 minus the value"},
         {"float", "maxanisotropy", "8", "of ewa; not used"},
-        TextureMapping::kMapping, TextureMapping::kUScale, TextureMapping::kVScale,
-        TextureMapping::kUDelta,  TextureMapping::kVDelta,
+        TextureMapping::kMapping,
+        TextureMapping::kUScale,
+        TextureMapping::kVScale,
+        TextureMapping::kUDelta,
+        TextureMapping::kVDelta,
     };
     static constexpr PluginInfo kInfo{"imagemap", "an image file laid on the surface", kParameters};
 
@@ -46,7 +49,7 @@ struct ImageTexture {
     float scale = 1;
     bool invert = false;
     bool albedo = false;
-    bool converts = false;   ///< the image's space is not the film's: `toFilm` takes it there
+    bool converts = false;  ///< the image's space is not the film's: `toFilm` takes it there
     std::array<std::array<float, 3>, 3> toFilm{};
 
 private:
@@ -55,7 +58,9 @@ private:
         if (invert) c = Spectrum<F>::constant(F(1.f)) - c;
         c = {max(c.r, F(0.f)), max(c.g, F(0.f)), max(c.b, F(0.f))};
         if (converts) {
-            const auto row = [&](const std::array<float, 3>& m) { return F(m[0]) * c.r + F(m[1]) * c.g + F(m[2]) * c.b; };
+            const auto row = [&](const std::array<float, 3>& m) {
+                return F(m[0]) * c.r + F(m[1]) * c.g + F(m[2]) * c.b;
+            };
             c = {row(toFilm[0]), row(toFilm[1]), row(toFilm[2])};
         }
         return albedo ? clampAlbedo(c) : c;

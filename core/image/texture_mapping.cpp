@@ -13,7 +13,7 @@ TextureMapping TextureMapping::make(TextureInput& input) {
         input.fail("unknown mapping " + quote(mapping) + suggestion(mapping, kKnown));
     if (mapping != "uv") {
         input.warn("the mapping " + quote(mapping) + " is not there yet; 'uv' is used");
-        parameters.find("vector3", "v1");   // the planar mapping's own: not to be reported as unknown besides
+        parameters.find("vector3", "v1");  // the planar mapping's own: not to be reported as unknown besides
         parameters.find("vector3", "v2");
     }
     TextureMapping m;

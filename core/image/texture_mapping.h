@@ -1,7 +1,7 @@
 // TextureMapping: from the point of a look-up to the plane of a two-dimensional texture.
 //
-// "uv": s = uscale u + udelta, t = vscale v + vdelta. The footprint is stretched like the coordinate. The format's other
-// mappings (planar, spherical, cylindrical) take TextureContext::p; they warn, and uv stands in for them.
+// "uv": s = uscale u + udelta, t = vscale v + vdelta. The footprint is stretched like the coordinate. The format's
+// other mappings (planar, spherical, cylindrical) take TextureContext::p; they warn, and uv stands in for them.
 #pragma once
 
 #include "core/base/plugin.h"
@@ -14,7 +14,7 @@ namespace penumbra {
 template <class F>
 struct MappedPoint {
     F s, t;
-    F widthS, widthT;   ///< the footprint, along s and along t
+    F widthS, widthT;  ///< the footprint, along s and along t
 };
 
 struct TextureMapping {

@@ -2,11 +2,12 @@
 //
 // A texture class is a plain struct (one row of a table) with
 //   static constexpr PluginInfo kInfo;
-//   static TextureOperand make(TextureInput& input, TextureTables& tables);   // cold; tables.append(row, ...) or a constant
-//   template <class V, class F> V evaluate(const TextureContext<F>& at, const TextureTables& tables) const;   // hot
-// in a file of its own and an entry in texture_registry.h. V is Spectrum<F> or F. A row holds one texture, so its members
-// are the same in all lanes; a group of lanes with several textures is evaluated once for each. Other textures are read by
-// tables.value<V>(operand, at). A class whose textures are all constant has no evaluate.
+//   static TextureOperand make(TextureInput& input, TextureTables& tables);   // cold; tables.append(row, ...) or a
+//   constant template <class V, class F> V evaluate(const TextureContext<F>& at, const TextureTables& tables) const; //
+//   hot
+// in a file of its own and an entry in texture_registry.h. V is Spectrum<F> or F. A row holds one texture, so its
+// members are the same in all lanes; a group of lanes with several textures is evaluated once for each. Other textures
+// are read by tables.value<V>(operand, at). A class whose textures are all constant has no evaluate.
 //
 // Thread safety: make from one thread; after that immutable.
 #pragma once
@@ -29,7 +30,7 @@ Spectrum<F> clampAlbedo(const Spectrum<F>& c) {
     return {clamp(c.r, zero, one), clamp(c.g, zero, one), clamp(c.b, zero, one)};
 }
 
-struct TextureRows;   // a vector for each class; texture.cpp
+struct TextureRows;  // a vector for each class; texture_registry.h
 
 class TextureTables {
 public:
@@ -60,9 +61,9 @@ public:
 
 private:
     struct Node {
-        std::uint32_t tag = 0, row = 0;      ///< class and its row
-        std::uint32_t depth = 1, cost = 1;   ///< of the tree of textures below it
-        bool albedo = false;                 ///< values are clamped to [0, 1] for whoever looks them up
+        std::uint32_t tag = 0, row = 0;     ///< class and its row
+        std::uint32_t depth = 1, cost = 1;  ///< of the tree of textures below it
+        bool albedo = false;                ///< values are clamped to [0, 1] for whoever looks them up
     };
     struct LoadedImage {
         TransferFunction pngEncoding;
@@ -78,7 +79,7 @@ private:
     std::unique_ptr<TextureRows> rows_;
     std::vector<Node> nodes_;
     std::vector<ImagePyramid> images_;
-    std::multimap<std::string, LoadedImage, std::less<>> loaded_;   ///< by path
+    std::multimap<std::string, LoadedImage, std::less<>> loaded_;  ///< by path
 };
 
 }  // namespace penumbra

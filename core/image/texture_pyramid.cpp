@@ -37,7 +37,8 @@ FloatLevel halve(int width, int height, int channels, const ReadRow& readRow) {
     FloatLevel half{(width + 1) / 2, (height + 1) / 2, channels, {}};
     half.values.assign(std::size_t(half.width) * half.height * channels, 0.f);
     std::vector<Cover> columns(std::size_t(half.width));
-    for (int x = 0; x < half.width; ++x) columns[std::size_t(x)] = coverOf(x, width, half.width);
+    for (int x = 0; x < half.width; ++x)
+        columns[std::size_t(x)] = coverOf(x, width, half.width);
     std::vector<float> row(std::size_t(width) * channels);
     for (int y = 0; y < half.height; ++y) {
         const Cover rows = coverOf(y, height, half.height);
@@ -49,7 +50,8 @@ FloatLevel halve(int width, int height, int channels, const ReadRow& readRow) {
                 for (int k = 0; k < cover.count; ++k) {
                     const float weight = rows.weight[std::size_t(i)] * cover.weight[std::size_t(k)];
                     const float* const in = row.data() + std::size_t(cover.first + k) * channels;
-                    for (int c = 0; c < channels; ++c) out[std::size_t(x) * channels + c] += weight * in[c];
+                    for (int c = 0; c < channels; ++c)
+                        out[std::size_t(x) * channels + c] += weight * in[c];
                 }
             }
         }
@@ -69,10 +71,12 @@ class ByteEncoder {
 public:
     /// REQUIRES: the table rises (equal neighbours are all right).
     explicit ByteEncoder(const std::array<float, 256>& decode) {
-        for (std::size_t i = 0; i < border_.size(); ++i) border_[i] = 0.5f * (decode[i] + decode[i + 1]);
+        for (std::size_t i = 0; i < border_.size(); ++i)
+            border_[i] = 0.5f * (decode[i] + decode[i + 1]);
         std::size_t code = 0;
         for (std::size_t i = 0; i < start_.size(); ++i) {
-            while (code < border_.size() && border_[code] <= float(i) / float(start_.size())) ++code;
+            while (code < border_.size() && border_[code] <= float(i) / float(start_.size()))
+                ++code;
             start_[i] = std::uint8_t(code);
         }
     }
@@ -80,13 +84,15 @@ public:
         const float inRange = std::clamp(value, 0.f, 1.f);
         const std::size_t bucket = std::min(std::size_t(inRange * float(start_.size())), start_.size() - 1);
         std::size_t code = start_[bucket];
-        while (code < border_.size() && border_[code] <= inRange) ++code;
+        while (code < border_.size() && border_[code] <= inRange)
+            ++code;
         return std::uint8_t(code);
     }
 
 private:
-    std::array<float, 255> border_{};         ///< half-way between the values of code i and i + 1
-    std::array<std::uint8_t, 1024> start_{};  ///< the lowest code of values in a bucket: the search is then a step or two
+    std::array<float, 255> border_{};  ///< half-way between the values of code i and i + 1
+    std::array<std::uint8_t, 1024>
+        start_{};  ///< the lowest code of values in a bucket: the search is then a step or two
 };
 
 bool isOpaque(const Image& image) {
@@ -148,7 +154,8 @@ void ImagePyramid::storeBytes(const Image& image) {
     const std::size_t rowLength = std::size_t(image.width()) * channels;
     FloatLevel level = halve(image.width(), image.height(), channels, [&](int y, float* out) {
         const std::uint8_t* const in = image.bytes().data() + std::size_t(y) * rowLength;
-        for (std::size_t i = 0; i < rowLength; ++i) out[i] = decode_[in[i]];
+        for (std::size_t i = 0; i < rowLength; ++i)
+            out[i] = decode_[in[i]];
     });
     std::vector<std::uint8_t> bytes;
     for (std::size_t i = 1;; ++i) {
@@ -163,7 +170,7 @@ void ImagePyramid::storeBytes(const Image& image) {
 void ImagePyramid::storeFloats(const Image& image) {
     stride_ = std::uint32_t(image.channels());
     format_ = stride_ == 1 ? Format::FloatGrey : Format::FloatColor;
-    floats_.assign(std::size_t(texelCount_) * stride_ + 3, 0.f);
+    floats_.assign(std::size_t(texelCount_) * stride_ + 1, 0.f);  // of three channels the last texel is read as four
     for (std::size_t i = 0; i < image.floats().size(); ++i) {
         const float v = image.floats()[i];
         if (std::isfinite(v)) {

@@ -1,19 +1,20 @@
 // ImagePyramid: an image with its ever smaller versions, and how textures read it over lanes.
 //
 // Level 0 is the image itself at its own size (nothing is resampled up); each next level has half the width and height,
-// rounded up, down to 1 x 1. A texel of it is the mean of the area that it covers, so that odd sizes keep the image's mean.
-// The means are taken in linear light. Images of bytes stay bytes: grey ones four texels a word, others r g b a in a
-// word; a level is rounded once, to the byte whose value is nearest. Other images are floats, r g b (a) side by side.
-// Row 0 is the top and (s, t) is measured from there: texel (i, j) has its centre at ((i + 1/2) / W, (j + 1/2) / H).
+// rounded up, down to 1 x 1. A texel of it is the mean of the area that it covers, so that odd sizes keep the image's
+// mean. The means are taken in linear light. Images of bytes stay bytes: grey ones four texels a word, others r g b a
+// in a word; a level is rounded once, to the byte whose value is nearest. Other images are floats, r g b (a) side by
+// side. Row 0 is the top and (s, t) is measured from there: the centre of texel (i, j) is at ((i + 1/2) / W,
+// (j + 1/2) / H).
 //
-// Level of detail: a look-up that covers the width w (in units of s and t) has the level log2(w max(W, H)), at least 0 and
-// at most the last. That is the pbrt format's (levels - 1) + log2(w) for powers of two. Point and bilinear filters read
-// the level below it, trilinear blends the levels on both sides.
+// Level of detail: a look-up that covers the width w (in units of s and t) has the level log2(w max(W, H)), at least 0
+// and at most the last. That is the pbrt format's (levels - 1) + log2(w) for powers of two. Point and bilinear filters
+// read the level below it, trilinear blends the levels on both sides.
 //
 // Thread safety: immutable. Failures: look-ups have none; s, t and w may be anything, NaN included (which reads some
 // texel of the image, or black where the wrap mode is Black).
-// Source: Williams, "Pyramidal Parametrics", SIGGRAPH 1983; octahedral borders: Clarberg, "Fast Equal-Area Mapping of the
-// (Hemi)Sphere using SIMD", JGT 13(3), 2008.
+// Source: Williams, "Pyramidal Parametrics", SIGGRAPH 1983; octahedral borders: Clarberg, "Fast Equal-Area Mapping of
+// the (Hemi)Sphere using SIMD", JGT 13(3), 2008.
 #pragma once
 
 #include "core/image/image.h"
@@ -65,7 +66,7 @@ private:
     template <class F>
     struct TexelPlace {
         UInt<F> index;
-        Mask<F> inside;   ///< false: black
+        Mask<F> inside;  ///< false: black
     };
 
     // How each format gives the texels at `index`.
@@ -94,13 +95,13 @@ private:
     void storeFloats(const Image& image);
 
     std::vector<Level> levels_;
-    std::vector<std::uint32_t> words_;   ///< of byte formats
-    std::vector<float> floats_;          ///< of float formats, with spare values at the end for loads of four
+    std::vector<std::uint32_t> words_;  ///< of byte formats
+    std::vector<float> floats_;  ///< of float formats, with one spare at the end, because three are loaded as four
     std::array<float, 256> decode_{};
     const ColorSpace* colorSpace_ = nullptr;
     std::size_t nonFiniteCount_ = 0;
-    std::uint32_t texelCount_ = 0;       ///< of all levels so far
-    std::uint32_t stride_ = 0;           ///< floats a texel
+    std::uint32_t texelCount_ = 0;  ///< of all levels so far
+    std::uint32_t stride_ = 0;      ///< floats a texel
     Format format_ = Format::ByteGrey;
     bool readsAlpha_ = false;
 };
@@ -182,10 +183,14 @@ struct ImagePyramid::FloatColorTexels {
 template <class Function>
 auto ImagePyramid::withTexels(Function&& function) const {
     switch (format_) {
-        case Format::ByteGrey: return function(ByteGreyTexels{words_.data(), decode_.data()});
-        case Format::ByteColor: return function(ByteColorTexels{words_.data(), decode_.data(), readsAlpha_});
-        case Format::FloatGrey: return function(FloatGreyTexels{floats_.data()});
-        case Format::FloatColor: break;
+        case Format::ByteGrey:
+            return function(ByteGreyTexels{words_.data(), decode_.data()});
+        case Format::ByteColor:
+            return function(ByteColorTexels{words_.data(), decode_.data(), readsAlpha_});
+        case Format::FloatGrey:
+            return function(FloatGreyTexels{floats_.data()});
+        case Format::FloatColor:
+            break;
     }
     return function(FloatColorTexels{floats_.data(), stride_, readsAlpha_});
 }
@@ -229,7 +234,8 @@ ImagePyramid::TexelPlace<F> ImagePyramid::place(const LevelOf<F>& level, Int<F> 
             y = select(y < zero, zero - one - y, select(y >= h, h + h - one - y, y));
             break;
         }
-        case WrapMode::Clamp: break;
+        case WrapMode::Clamp:
+            break;
     }
     x = clamp(x, zero, w - one);
     y = clamp(y, zero, h - one);
@@ -267,9 +273,9 @@ template <class V, class F, class Texels>
 V ImagePyramid::filtered(const Texels& texels, F s, F t, F width, WrapMode wrap, TextureFilter filter) const {
     const Int<F> last(std::int32_t(levels_.size()) - 1);
     const F size = F(float(std::max(levels_[0].width, levels_[0].height)));
-    const F covered = clamp(width * size, F(1.f), F(0x1p30f));   // in texels of level 0
+    const F covered = clamp(width * size, F(1.f), F(0x1p30f));  // in texels of level 0
     const UInt<F> coveredBits = floatBits(covered);
-    const Int<F> below = min(asInt(coveredBits >> 23) - Int<F>(127), last);   // the exponent: floor(log2) exactly
+    const Int<F> below = min(asInt(coveredBits >> 23) - Int<F>(127), last);  // the exponent: floor(log2) exactly
     s = reduce(s, wrap);
     t = reduce(t, wrap);
     if (filter == TextureFilter::Point) return point<V, F>(texels, s, t, asUInt(below), wrap);

@@ -1,4 +1,5 @@
-// The texture classes there are. A new one is a file beside this and an entry in TextureTypes; see texture_plugin.h.
+// The texture classes there are, and the table's rows of each. A new class is a file beside this and an entry in
+// TextureTypes; see texture_plugin.h. A make() that is not in its class's header needs this file.
 #pragma once
 
 #include "core/image/texture_checkerboard.h"
@@ -6,8 +7,42 @@
 #include "core/image/texture_imagemap.h"
 #include "core/image/texture_scale.h"
 
+#include <tuple>
+
 namespace penumbra {
 
 using TextureTypes = TypeList<ConstantTexture, ImageTexture, ScaleTexture, CheckerboardTexture>;
+
+struct TextureRows {
+    template <class... Ts>
+    static std::tuple<std::vector<Ts>...> storage(TypeList<Ts...>);
+    decltype(storage(TextureTypes{})) byClass;
+};
+
+template <class T>
+std::vector<T>& TextureTables::rows() {
+    return std::get<std::vector<T>>(rows_->byClass);
+}
+template <class T>
+const std::vector<T>& TextureTables::rows() const {
+    return std::get<std::vector<T>>(rows_->byClass);
+}
+
+template <class T>
+TextureOperand TextureTables::append(const T& row, std::initializer_list<TextureOperand> uses, TextureInput& input) {
+    Node node;
+    node.tag = kTagOf<T, TextureTypes>;
+    node.row = std::uint32_t(rows<T>().size());
+    const TextureOperand operand = appendNode(node, uses, input);
+    rows<T>().push_back(row);
+    return operand;
+}
+
+template <class T>
+const T* TextureTables::find(const TextureOperand& operand) const {
+    if (operand.isConstant()) return nullptr;
+    const Node& node = nodes_[operand.texture];
+    return node.tag == kTagOf<T, TextureTypes> ? &rows<T>()[node.row] : nullptr;
+}
 
 }  // namespace penumbra

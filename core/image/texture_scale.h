@@ -1,6 +1,7 @@
 // scale: the product of a texture and a number, both of which may be textures.
 //
-// A constant factor of an image goes into the image's own scale, that is before its inversion, as the pbrt format has it.
+// A constant factor of an image goes into the image's own scale, that is before its inversion, as the pbrt format has
+// it.
 #pragma once
 
 #include "core/image/texture_imagemap.h"
@@ -16,7 +17,8 @@ struct ScaleTexture {
 
     static TextureOperand make(TextureInput& input, TextureTables& tables) {
         TextureOperand tex = input.value("tex", 1.f), scale = input.scalar("scale", 1.f);
-        if (input.kind() == TextureKind::Float && tex.isConstant()) std::swap(tex, scale);   // two numbers: either may be it
+        if (input.kind() == TextureKind::Float && tex.isConstant())
+            std::swap(tex, scale);  // two numbers: either may be it
         if (!scale.isConstant()) return tables.append(ScaleTexture{tex, scale}, {tex, scale}, input);
         const float factor = scale.constant.r;
         if (tex.isConstant()) return {tex.constant * factor, kNoTexture};
