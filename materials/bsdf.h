@@ -7,10 +7,10 @@
 //
 // A material type is a plain struct of 32-bit words (one row of a table, read through Records) with
 //   static constexpr PluginInfo kInfo;
-//   static constexpr bool kPassThrough;          // true: a mere border of media, which rays cross as if it were not
-//   there template <class F> using Bsdf = ...;         // the closure it builds static M make(MaterialInput&); // from
-//   parameters, at scene build (cold) template <class F> static Bsdf<F> bsdf(const Records<F, M>&, const
-//   ShadingContext<F>&);
+//   static constexpr bool kPassThrough;      // true: a mere border of media, which rays cross as if it were not there
+//   template <class F> using Bsdf = ...;     // the closure it builds
+//   static M make(MaterialInput&);           // from parameters, at scene build (cold)
+//   template <class F> static Bsdf<F> bsdf(const Records<F, M>&, const ShadingContext<F>&);
 // and a closure has
 //   BsdfEval<F> evaluate(const Vec3<F>& wo, const Vec3<F>& wi) const;   // delta lobes give 0
 //   BsdfSample<F> sample(const Vec3<F>& wo, F uLobe, const Vec2<F>& u) const;

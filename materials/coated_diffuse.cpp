@@ -35,28 +35,31 @@ CoatedDiffuseMaterial CoatedDiffuseMaterial::make(MaterialInput& input) {
     m.baseBounces = std::uint32_t(maxDepth / 2 + maxDepth % 2);
 
     const Coat coat{m.eta, m.opticalThickness};
+    const SurfaceRoughness<float> rough = surface(m.uAlpha.constant, m.vAlpha.constant);
+    MaterialTables& tables = input.tables();
     enum Kind { Smooth, Constant, Textured };
     if (m.isTextured()) {
-        m.table = input.tables().block({Textured, coat.eta, coat.opticalThickness},
-                                       [&](std::vector<float>& numbers) { appendTexturedCoat(coat, numbers); });
-        m.setRows(kTexturedCoatRows);
-        return m;
+        const std::uint32_t block =
+            tables.block({Textured, coat.eta, coat.opticalThickness},
+                         [&](std::vector<float>& numbers) { appendTexturedCoat(coat, numbers); });
+        m.setBlock(block, kTexturedCoatRows, tables.data());
+    } else if (rough.smooth) {
+        const std::uint32_t block = tables.block({Smooth, coat.eta, coat.opticalThickness},
+                                                 [&](std::vector<float>& numbers) { appendSmoothCoat(coat, numbers); });
+        m.setBlock(block, CoatRows{}, tables.data());
+    } else {
+        const std::uint32_t block =
+            tables.block({Constant, coat.eta, coat.opticalThickness, rough.ggx.ax, rough.ggx.ay},
+                         [&](std::vector<float>& numbers) { appendConstantCoat(coat, rough.ggx, numbers); });
+        m.setBlock(block, constantCoatRows(rough.ggx), tables.data());
     }
-    const bool remap = m.remapRoughness != 0;
-    const SurfaceRoughness<float> rough =
-        surface(alpha(m.uRoughness.constant, remap), alpha(m.vRoughness.constant, remap));
-    if (rough.smooth) {
-        m.table = input.tables().block({Smooth, coat.eta, coat.opticalThickness},
-                                       [&](std::vector<float>& numbers) { appendSmoothCoat(coat, numbers); });
-        return m;
-    }
-    m.table = input.tables().block({Constant, coat.eta, coat.opticalThickness, rough.ggx.ax, rough.ggx.ay},
-                                   [&](std::vector<float>& numbers) { appendConstantCoat(coat, rough.ggx, numbers); });
-    m.setRows(constantCoatRows(rough.ggx));
     return m;
 }
 
-void CoatedDiffuseMaterial::setRows(const CoatRows& rows) {
+void CoatedDiffuseMaterial::setBlock(std::uint32_t offset, const CoatRows& rows, const float* tables) {
+    table = offset;
+    rho = tables[offset];
+    tau = tables[offset + 2];
     firstRow = rows.first;
     lastRow = float(rows.count - 1);
     rowsPerRoot = rows.count > 1 ? lastRow / (rows.last - rows.first) : 0.f;

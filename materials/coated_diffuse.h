@@ -49,8 +49,9 @@ struct CoatReader {
                 select(smooth, smoothValue.reflected, roughValue.reflected)};
     }
 
-    /// rho and tau of coat_table.h, in this order. (Rows of different alpha(w) in one material have the same.)
+    /// rho and tau of coat_table.h, in this order, for lanes with several rows.
     Value base() const { return betweenRows(rowAt(sqrt(ggx.ax * ggx.ay)), UInt<F>(0u), F(0.f)); }
+    Mask<F> hasRows() const { return lastRow > F(0.f); }
 
 private:
     F rowAt(F alpha) const {
@@ -58,7 +59,7 @@ private:
         return select(smooth, F(0.f), clamp(row, F(0.f), lastRow));
     }
     F rowCoordinate(const Vec3<F>& w) const {
-        if (none(lastRow > F(0.f))) return F(0.f);
+        if (none(hasRows())) return F(0.f);
         const F planar = max(w.x * w.x + w.y * w.y, F(1e-20f));
         const F alpha = sqrt((sqr(ggx.ax * w.x) + sqr(ggx.ay * w.y)) / planar);
         return rowAt(select(ggx.ax == ggx.ay, ggx.ax, alpha));
@@ -87,17 +88,16 @@ private:
     }
 };
 
-/// sum_{k < count} x^k for 0 <= x < 1, by squaring.
+/// sum_{k < count} x^k per channel, by Horner's scheme; stops early where more terms change nothing.
 template <class F>
-F geometricSum(F x, const UInt<F>& count) {
-    F power(1.f), square = x;
-    UInt<F> rest = count;
-    while (any(rest != UInt<F>(0u))) {
-        power = select((rest & UInt<F>(1u)) != UInt<F>(0u), power * square, power);
-        square = square * square;
-        rest = rest >> 1;
+Spectrum<F> geometricSum(const Spectrum<F>& x, const UInt<F>& count) {
+    const Spectrum<F> one = Spectrum<F>::constant(F(1.f));
+    Spectrum<F> sum = Spectrum<F>::constant(F(0.f));
+    for (std::uint32_t k = 0;; ++k) {
+        const Spectrum<F> next = select(UInt<F>(k) < count, sum * x + one, sum);
+        if (all((next.r == sum.r) & (next.g == sum.g) & (next.b == sum.b))) return sum;
+        sum = next;
     }
-    return (F(1.f) - power) / (F(1.f) - x);
 }
 
 template <class F>
@@ -111,7 +111,8 @@ struct CoatedDiffuseBsdf {
         const Vec3<F> wo{woGiven.x, woGiven.y, flipSign(below, woGiven.z)};
         const Vec3<F> wi{wiGiven.x, wiGiven.y, flipSign(below, wiGiven.z)};
         const Mask<F> lit = (wo.z > F(0.f)) & (wi.z > F(0.f));
-        const BsdfEval<F> value = aboveSurface(wo, {wi.x, wi.y, max(wi.z, F(0.f))}, coat(wo));
+        const auto fromWo = coat(wo);
+        const BsdfEval<F> value = aboveSurface(wo, {wi.x, wi.y, max(wi.z, F(0.f))}, fromWo, topProbability(fromWo));
         return {select(lit, value.fCos, Spectrum<F>::constant(F(0.f))), select(lit, value.pdf, F(0.f))};
     }
 
@@ -128,7 +129,7 @@ struct CoatedDiffuseBsdf {
         const Mask<F> above = (wo.z > F(0.f)) & (wi.z > F(0.f));
         wi.z = max(wi.z, F(0.f));
 
-        const BsdfEval<F> value = aboveSurface(wo, wi, fromWo);
+        const BsdfEval<F> value = aboveSurface(wo, wi, fromWo, top);
         const Spectrum<F> mirror = Spectrum<F>::constant(fromWo.reflected / max(top, F(1e-20f)));
         const Spectrum<F> weight = select(delta, mirror, value.fCos * (F(1.f) / max(value.pdf, F(1e-20f))));
         const F pdf = select(delta, top, value.pdf);
@@ -151,8 +152,8 @@ private:
     }
 
     /// All but delta lobes; wo.z, wi.z >= 0.
-    BsdfEval<F> aboveSurface(const Vec3<F>& wo, const Vec3<F>& wi, const typename CoatReader<F>::Value& fromWo) const {
-        const F top = topProbability(fromWo);
+    BsdfEval<F> aboveSurface(const Vec3<F>& wo, const Vec3<F>& wi, const typename CoatReader<F>::Value& fromWo,
+                             F top) const {
         F topCos(0.f), topPdf(0.f);
         if (any(!coat.smooth)) {
             const Vec3<F> h = wo + wi;
@@ -189,6 +190,7 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
     float eta = 1.5f, opticalThickness = 0.01f;
     std::uint32_t baseBounces = 5;
     std::uint32_t table = 0;                                 ///< offset of the block of coat_table.h
+    float rho = 0.f, tau = 0.f;                              ///< of the block's first row
     float firstRow = 0.f, rowsPerRoot = 0.f, lastRow = 0.f;  ///< CoatRows
 
     static CoatedDiffuseMaterial make(MaterialInput& input);
@@ -206,14 +208,17 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
         const F eta = m(&M::eta), etaSquared = eta * eta;
         const CoatReader<F> coat{eta,          m(&M::opticalThickness), rough.smooth,       rough.ggx,     tables,
                                  m(&M::table), m(&M::firstRow),         m(&M::rowsPerRoot), m(&M::lastRow)};
-        const auto [rho, tau] = coat.base();
-        const UInt<F> bounces = m(&M::baseBounces);
-        const Spectrum<F> series{geometricSum(reflectance.r * rho, bounces), geometricSum(reflectance.g * rho, bounces),
-                                 geometricSum(reflectance.b * rho, bounces)};
+        F rho = m(&M::rho), tau = m(&M::tau);
+        if (any(coat.hasRows())) {
+            const auto [rowRho, rowTau] = coat.base();
+            rho = select(coat.hasRows(), rowRho, rho);
+            tau = select(coat.hasRows(), rowTau, tau);
+        }
+        const Spectrum<F> series = geometricSum(reflectance * rho, m(&M::baseBounces));
         return {coat, reflectance * series * (F(kInvPi) / etaSquared), F(kPi) * etaSquared * tau};
     }
 
-    void setRows(const CoatRows& rows);
+    void setBlock(std::uint32_t offset, const CoatRows& rows, const float* tables);
 };
 
 }  // namespace penumbra

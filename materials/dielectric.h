@@ -10,6 +10,8 @@
 #include "materials/fresnel.h"
 #include "materials/microfacet.h"
 
+#include <cmath>
+
 namespace penumbra {
 
 /// Reads the parameter eta of a dielectric or a coat; an index no matter has is an error.
@@ -21,7 +23,7 @@ inline float readInterfaceIndex(MaterialInput& input) {
 
 template <class F>
 struct DielectricBsdf {
-    F eta;
+    F eta, inverseEta;
     Ggx<F> ggx;
     Mask<F> smooth;
 
@@ -29,7 +31,7 @@ struct DielectricBsdf {
         const Mask<F> below = woGiven.z < F(0.f);
         const Vec3<F> wo{woGiven.x, woGiven.y, flipSign(below, woGiven.z)};
         const Vec3<F> wi{wiGiven.x, wiGiven.y, flipSign(below, wiGiven.z)};
-        const F relative = select(below, F(1.f) / eta, eta);
+        const F relative = select(below, inverseEta, eta);
         const Mask<F> reflects = wi.z > F(0.f);
 
         // The generalised half vector, on wo's side (Walter et al., eq. 13 and 16): wo + wi, or +-(wo + eta wi).
@@ -44,7 +46,7 @@ struct DielectricBsdf {
         const GgxReflection<F> r = ggx.reflection(wo, {wi.x, wi.y, abs(wi.z)}, ggx.density(h, h2));
         // Refraction has the Jacobian eta^2 |wi.m| / |h|^2 where reflection has 1 / (4 wo.m); radiance scales by 1 /
         // eta^2.
-        const F refraction = F(4.f) * (F(1.f) - fresnel) * abs(om * im) / max(h2, F(1e-30f));
+        const F refraction = F(4.f) * (F(1.f) - fresnel) * abs(om * im) * inverseLength * inverseLength;
         const F f = r.fCos * select(reflects, fresnel, refraction);
         const F pdf = r.pdf * select(reflects, fresnel, refraction * relative * relative);
         return {Spectrum<F>::constant(select(lit, f, F(0.f))), select(lit, pdf, F(0.f))};
@@ -53,7 +55,7 @@ struct DielectricBsdf {
     BsdfSample<F> sample(const Vec3<F>& woGiven, F uLobe, const Vec2<F>& u) const {
         const Mask<F> below = woGiven.z < F(0.f);
         const Vec3<F> wo{woGiven.x, woGiven.y, flipSign(below, woGiven.z)};
-        const F relative = select(below, F(1.f) / eta, eta), inverse = select(below, eta, F(1.f) / eta);
+        const F relative = select(below, inverseEta, eta), inverse = select(below, eta, inverseEta);
         Vec3<F> m{F(0.f), F(0.f), F(1.f)};
         if (any(!smooth)) m = select(smooth, m, ggx.sampleVisible(wo, u));
         const F om = clamp(dot(wo, m), F(0.f), F(1.f));
@@ -95,11 +97,14 @@ struct DielectricMaterial : RoughnessInputs {
     template <class F>
     using Bsdf = DielectricBsdf<F>;
 
-    float eta = 1.5f;
+    float eta = 1.5f, inverseEta = 1.f / 1.5f;
 
     static DielectricMaterial make(MaterialInput& input) {
         DielectricMaterial m{RoughnessInputs::make(input)};
         m.eta = readInterfaceIndex(input);
+        // Without a step of the index facets deviate nothing: refraction is a delta lobe however rough they are.
+        if (std::abs(m.eta - 1.f) < 1e-4f) m.eta = 1.f;
+        m.inverseEta = 1.f / m.eta;
         return m;
     }
 
@@ -107,10 +112,8 @@ struct DielectricMaterial : RoughnessInputs {
     static DielectricBsdf<F> bsdf(const Records<F, DielectricMaterial>& m, const ShadingContext<F>& at) {
         const SurfaceRoughness<F> rough = surface(m, at);
         const F eta = m(&DielectricMaterial::eta);
-        // Without a step of the index facets deviate nothing: refraction is a delta lobe however rough they are.
-        const Mask<F> noStep = abs(eta - F(1.f)) < F(1e-4f);
-        const Mask<F> smooth = rough.smooth | noStep;
-        return {select(noStep, F(1.f), eta), rough.ggx, smooth};
+        const Mask<F> smooth = rough.smooth | (eta == F(1.f));
+        return {eta, m(&DielectricMaterial::inverseEta), rough.ggx, smooth};
     }
 };
 

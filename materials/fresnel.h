@@ -52,12 +52,16 @@ F conductorReflectance(F cosIncident, F difference, F product) {
     return clamp((sSum - sDifference) * pSum / denominator, F(0.f), F(1.f));
 }
 
-/// Per channel.
+/// Per channel. Grey metals (a reflectance without colour) are worth the look: most of a conductor's time goes here.
 template <class F>
 Spectrum<F> conductorReflectance(F cosIncident, const ConductorConstants<Spectrum<F>>& index) {
-    return {conductorReflectance(cosIncident, index.difference.r, index.product.r),
-            conductorReflectance(cosIncident, index.difference.g, index.product.g),
-            conductorReflectance(cosIncident, index.difference.b, index.product.b)};
+    const auto& [difference, product] = index;
+    const F r = conductorReflectance(cosIncident, difference.r, product.r);
+    if (all((difference.r == difference.g) & (difference.g == difference.b) & (product.r == product.g) &
+            (product.g == product.b)))
+        return Spectrum<F>::constant(r);
+    return {r, conductorReflectance(cosIncident, difference.g, product.g),
+            conductorReflectance(cosIncident, difference.b, product.b)};
 }
 
 }  // namespace penumbra

@@ -48,8 +48,9 @@ struct Ggx {
     /// `h` = wo + wi.
     GgxReflection<F> reflection(const Vec3<F>& wo, const Vec3<F>& wi, F densityOfH) const {
         const F o = wo.z, i = wi.z, lo = shape(wo);
-        const F half = F(0.5f) * densityOfH;
-        return {half * i / max(i * lo + o * shape(wi), F(1e-30f)), half / (o + lo)};
+        const F masking = max(i * lo + o * shape(wi), F(1e-20f)), visible = o + lo;
+        const F common = F(0.5f) * densityOfH / (masking * visible);  // one division for both quotients
+        return {common * visible * i, common * masking};
     }
 
     /// A normal with the density of those visible from w: G1(w) D(m) max(0, w.m) / w.z.
@@ -74,21 +75,27 @@ struct SurfaceRoughness {
 
 /// The members that a rough material has, and how they are read from a scene and at a hit. Derive from it.
 struct RoughnessInputs {
-    ScalarInput uRoughness, vRoughness;
-    std::uint32_t remapRoughness = 1;  ///< alpha is the square root of roughness
+    ScalarInput uAlpha, vAlpha;          ///< constants are alpha; textures give alpha too, or roughness:
+    std::uint32_t rootU = 0, rootV = 0;  ///< not 0: alpha is the square root of what the texture gives
 
     static RoughnessInputs make(MaterialInput& input) {
         const ScalarInput both = input.scalar("roughness", 0.f);
-        RoughnessInputs r{input.scalar("uroughness", both), input.scalar("vroughness", both), 1u};
-        r.remapRoughness = input.parameters().boolean("remaproughness", true) ? 1u : 0u;
+        RoughnessInputs r{input.scalar("uroughness", both), input.scalar("vroughness", both)};
+        const bool remap = input.parameters().boolean("remaproughness", true);
+        const auto settle = [remap](ScalarInput& roughness, std::uint32_t& root) {
+            root = remap && roughness.texture != kNoTexture ? 1u : 0u;
+            if (roughness.texture == kNoTexture) roughness.constant = alpha(roughness.constant, remap);
+        };
+        settle(r.uAlpha, r.rootU);
+        settle(r.vAlpha, r.rootV);
         return r;
     }
-    bool isTextured() const { return uRoughness.texture != kNoTexture || vRoughness.texture != kNoTexture; }
+    bool isTextured() const { return uAlpha.texture != kNoTexture || vAlpha.texture != kNoTexture; }
 
     template <class F>
-    static F alpha(F roughness, const Mask<F>& remap) {
+    static F alpha(F roughness, const Mask<F>& root) {
         const F r = clamp(roughness, F(0.f), F(1e3f));
-        return select(remap, sqrt(r), r);
+        return any(root) ? select(root, sqrt(r), r) : r;
     }
     template <class F>
     static SurfaceRoughness<F> surface(F alphaX, F alphaY) {
@@ -100,9 +107,12 @@ struct RoughnessInputs {
     /// The roughness of M, a type derived from this one.
     template <class F, class M>
     static SurfaceRoughness<F> surface(const Records<F, M>& m, const ShadingContext<F>& at) {
-        const Mask<F> remap = m(static_cast<std::uint32_t M::*>(&RoughnessInputs::remapRoughness)) != UInt<F>(0u);
-        return surface(alpha(at.scalar(m, static_cast<ScalarInput M::*>(&RoughnessInputs::uRoughness)), remap),
-                       alpha(at.scalar(m, static_cast<ScalarInput M::*>(&RoughnessInputs::vRoughness)), remap));
+        const auto read = [&](ScalarInput RoughnessInputs::*input, std::uint32_t RoughnessInputs::*root) {
+            const F value = at.scalar(m, static_cast<ScalarInput M::*>(input));
+            return alpha(value, Mask<F>(m(static_cast<std::uint32_t M::*>(root)) != UInt<F>(0u)));
+        };
+        return surface(read(&RoughnessInputs::uAlpha, &RoughnessInputs::rootU),
+                       read(&RoughnessInputs::vAlpha, &RoughnessInputs::rootV));
     }
 };
 

@@ -182,11 +182,10 @@ TEST(CoatTable, InterpolatesConstantRoughness) {
 }
 
 TEST(CoatTable, InterpolatesTexturedRoughness) {
-    MaterialTables tables;
     CoatedDiffuseMaterial material;
-    material.setRows(kTexturedCoatRows);
     std::vector<float> numbers;
     appendTexturedCoat({}, numbers);
+    material.setBlock(0, kTexturedCoatRows, numbers.data());
     const Records<float, CoatedDiffuseMaterial> record(&material, 0u);
     for (const float alpha : {0.002f, 0.03f, 0.21f, 0.77f, 1.f}) {
         const auto rough = RoughnessInputs::surface(alpha, alpha);
