@@ -50,7 +50,8 @@ TEST(CoreError, NearestNames) {
         {"", {}},
         {std::string(1000000, 'd'), {}},
     };
-    for (const Case& c : cases) EXPECT_EQ(nearestNames(c.name, kMaterials), c.expected) << quote(c.name);
+    for (const Case& c : cases)
+        EXPECT_EQ(nearestNames(c.name, kMaterials), c.expected) << quote(c.name);
 }
 
 TEST(CoreError, NearestNamesAreOrderedAndLimited) {
@@ -75,7 +76,8 @@ TEST(CoreWarnings, EqualTextsAreKeptOnceAndTheirNumberIsLimited) {
     warnings.add("two");
     warnings.add("one");
     EXPECT_EQ(warnings.all(), (std::vector<std::string>{"one", "two"}));
-    for (std::size_t i = 0; i < 2 * Warnings::kMost; ++i) warnings.add(std::to_string(i));
+    for (std::size_t i = 0; i < 2 * Warnings::kMost; ++i)
+        warnings.add(std::to_string(i));
     EXPECT_EQ(warnings.all().size(), Warnings::kMost + 1);
     EXPECT_NE(warnings.all().back().find("more warnings"), std::string::npos);
 }

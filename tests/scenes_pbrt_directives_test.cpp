@@ -80,10 +80,13 @@ TEST(ScenesPbrtDirectives, Options) {
 
 TEST(ScenesPbrtDirectives, ParameterValues) {
     const SceneDescription scene = readWorld(
-        "Shape \"s\" \"float a\" 1 \"float b\" [ 1 2 ] \"integer i\" [-3] \"bool t\" true \"bool f\" [ \"false\" true ]\n"
-        "\"string s\" [ \"x\" \"y z\" ] \"point2 p2\" [1 2] \"vector2 v2\" [1 2] \"point3 p3\" [1 2 3] \"vector3 v3\" [1 2 3]\n"
+        "Shape \"s\" \"float a\" 1 \"float b\" [ 1 2 ] \"integer i\" [-3] \"bool t\" true \"bool f\" [ \"false\" true "
+        "]\n"
+        "\"string s\" [ \"x\" \"y z\" ] \"point2 p2\" [1 2] \"vector2 v2\" [1 2] \"point3 p3\" [1 2 3] \"vector3 v3\" "
+        "[1 2 3]\n"
         "\"normal n\" [0 0 1] \"rgb c\" [1 .5 0] \"blackbody bb\" 6500 \"spectrum pairs\" [400 1 500 2]\n"
-        "\"spectrum named\" \"metal-Cu-eta\" \"spectrum file\" [\"a.spd\"] \"texture tex\" \"t\" \"  float \t spaced  \" 4");
+        "\"spectrum named\" \"metal-Cu-eta\" \"spectrum file\" [\"a.spd\"] \"texture tex\" \"t\" \"  float \t spaced  "
+        "\" 4");
     const ParameterSet& p = scene.shapes.at(0).parameters;
     EXPECT_EQ(p.all().size(), 18u);
     EXPECT_EQ(p.number("a", 0), 1);
@@ -107,12 +110,14 @@ TEST(ScenesPbrtDirectives, ParameterValues) {
 
 TEST(ScenesPbrtDirectives, HabitsOfOlderFiles) {
     const SceneDescription scene = readWorld(
-        "Texture \"t\" \"color\" \"imagemap\" Shape \"s\" \"point P\" [1 2 3] \"vector v\" [1 2 3] \"color c\" [1 1 1]\n"
+        "Texture \"t\" \"color\" \"imagemap\" Shape \"s\" \"point P\" [1 2 3] \"vector v\" [1 2 3] \"color c\" [1 1 "
+        "1]\n"
         "\"normal3 N\" [0 0 1] \"bool b\" [\"true\"]\nTranslate [1 2 3]\nWorldEnd\n",
         {"s.pbrt:5:1: WorldEnd is a word of pbrt-v3 and is ignored"});
     const ParameterSet& p = scene.shapes.at(0).parameters;
     for (const char* type : {"point3", "vector3", "rgb", "normal"})
-        EXPECT_TRUE(std::any_of(p.all().begin(), p.all().end(), [&](const Parameter& q) { return q.type == type; })) << type;
+        EXPECT_TRUE(std::any_of(p.all().begin(), p.all().end(), [&](const Parameter& q) { return q.type == type; }))
+            << type;
     EXPECT_EQ(p.find("rgb", "c")->colorSpace, "srgb");
     EXPECT_TRUE(p.boolean("b", false));
     EXPECT_FALSE(scene.textures.at(0).isFloat);
@@ -138,12 +143,14 @@ TEST(ScenesPbrtDirectives, TransformsMultiplyFromTheRight) {
     expectPoint(apply(scene.shapes[2].objectToWorld.start, 0, 0, 0), 7, 9, 9);
     EXPECT_EQ(scene.shapes[3].objectToWorld.start, Matrix4{});
     expectPoint(apply(scene.shapes[4].objectToWorld.start, 1, 1, 1), 3, 1, 1);
-    for (const ShapeEntity& s : scene.shapes) EXPECT_FALSE(s.objectToWorld.animated());
+    for (const ShapeEntity& s : scene.shapes)
+        EXPECT_FALSE(s.objectToWorld.animated());
 }
 
 TEST(ScenesPbrtDirectives, LookAtIsCameraFromWorld) {
     const SceneDescription scene = read(
-        "LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\"\nWorldBegin Shape \"s\" CoordSysTransform \"camera\" Shape \"s\"\n"
+        "LookAt 0 0 -5  0 0 0  0 1 0 Camera \"perspective\"\nWorldBegin Shape \"s\" CoordSysTransform \"camera\" Shape "
+        "\"s\"\n"
         "CoordSysTransform \"world\" Shape \"s\"");
     expectPoint(apply(scene.camera.cameraFromWorld.start, 0, 0, 0), 0, 0, 5);
     EXPECT_FALSE(scene.camera.cameraFromWorld.animated());
@@ -155,14 +162,18 @@ TEST(ScenesPbrtDirectives, LookAtIsCameraFromWorld) {
 TEST(ScenesPbrtDirectives, ActiveTransformMovesOneOfTheTwo) {
     const SceneDescription scene = read(
         "TransformTimes 0.25 0.75 ActiveTransform StartTime Translate 9 9 9 WorldBegin\n"
-        "Shape \"still\" AttributeBegin ActiveTransform EndTime Translate 1 0 0 Shape \"moves\" AttributeEnd Translate 0 2 0\n"
-        "Shape \"both\" ActiveTransform StartTime Rotate 30 1 2 3 ActiveTransform EndTime Rotate 30 1 2 3 Shape \"equal\"\n"
-        "ActiveTransform StartTime Scale 2 2 2 CoordinateSystem \"here\" Identity ActiveTransform All CoordSysTransform \"here\"\n"
+        "Shape \"still\" AttributeBegin ActiveTransform EndTime Translate 1 0 0 Shape \"moves\" AttributeEnd Translate "
+        "0 2 0\n"
+        "Shape \"both\" ActiveTransform StartTime Rotate 30 1 2 3 ActiveTransform EndTime Rotate 30 1 2 3 Shape "
+        "\"equal\"\n"
+        "ActiveTransform StartTime Scale 2 2 2 CoordinateSystem \"here\" Identity ActiveTransform All "
+        "CoordSysTransform \"here\"\n"
         "ReverseOrientation Shape \"moves\"");
     EXPECT_EQ(scene.transformTimes[0], 0.25);
     EXPECT_EQ(scene.transformTimes[1], 0.75);
     ASSERT_EQ(scene.shapes.size(), 5u);
-    for (const ShapeEntity& s : scene.shapes) EXPECT_EQ(s.objectToWorld.animated(), s.type == "moves") << s.where.line;
+    for (const ShapeEntity& s : scene.shapes)
+        EXPECT_EQ(s.objectToWorld.animated(), s.type == "moves") << s.where.line;
     expectPoint(apply(scene.shapes[1].objectToWorld.end, 0, 0, 0), 1, 0, 0);
     expectPoint(apply(scene.shapes[1].objectToWorld.start, 0, 0, 0), 0, 0, 0);
     expectPoint(apply(scene.shapes[2].objectToWorld.start, 0, 0, 0), 0, 2, 0);
@@ -172,10 +183,12 @@ TEST(ScenesPbrtDirectives, ActiveTransformMovesOneOfTheTwo) {
 
 TEST(ScenesPbrtDirectives, BlocksRestoreTheWholeState) {
     for (const std::string block : {"Attribute", "Transform"}) {
-        const SceneDescription scene = readWorld(
-            "Material \"conductor\" " + block + "Begin\nTranslate 1 0 0 ReverseOrientation Material \"dielectric\"\n"
-            "AreaLightSource \"diffuse\" MediumInterface \"fog\" \"air\" ColorSpace \"rec2020\" ActiveTransform EndTime\n"
-            "Attribute \"shape\" \"float radius\" 3\nShape \"in\"\n" + block + "End\nShape \"out\" \"rgb c\" [1 1 1]");
+        const SceneDescription scene = readWorld("Material \"conductor\" " + block +
+                                                 "Begin\nTranslate 1 0 0 ReverseOrientation Material \"dielectric\"\n"
+                                                 "AreaLightSource \"diffuse\" MediumInterface \"fog\" \"air\" "
+                                                 "ColorSpace \"rec2020\" ActiveTransform EndTime\n"
+                                                 "Attribute \"shape\" \"float radius\" 3\nShape \"in\"\n" +
+                                                 block + "End\nShape \"out\" \"rgb c\" [1 1 1]");
         const ShapeEntity &in = scene.shapes.at(0), &out = scene.shapes.at(1);
         EXPECT_EQ(in.material.index, 2);
         EXPECT_EQ(in.areaLight, 0);
@@ -198,7 +211,8 @@ TEST(ScenesPbrtDirectives, AttributeDefaultsRankBelowOwnParameters) {
         "Shape \"a\" Shape \"b\" \"texture radius\" \"t\" Attribute \"light\" \"rgb L\" [1 1 1] LightSource \"point\"\n"
         "AreaLightSource \"diffuse\" Attribute \"material\" \"float roughness\" 0.5 Material \"conductor\"\n"
         "MakeNamedMaterial \"m\" \"string type\" \"diffuse\" Attribute \"texture\" \"float scale\" 3\n"
-        "Texture \"t\" \"float\" \"constant\" Attribute \"medium\" \"float g\" .5 MakeNamedMedium \"f\" \"string type\" \"cloud\"");
+        "Texture \"t\" \"float\" \"constant\" Attribute \"medium\" \"float g\" .5 MakeNamedMedium \"f\" \"string "
+        "type\" \"cloud\"");
     EXPECT_EQ(scene.shapes[0].parameters.number("radius", 0), 2);
     EXPECT_EQ(scene.shapes[0].parameters.number("zmin", 0), -1);
     EXPECT_TRUE(scene.shapes[0].parameters.all()[0].inherited);
@@ -292,16 +306,20 @@ TEST(ScenesPbrtDirectives, WarningsAreErrorsWhereStrict) {
 
 TEST(ScenesPbrtDirectives, LargeMeshesKeepEveryNumber) {
     std::string text = "Shape \"trianglemesh\" \"point3 P\" [";
-    for (int i = 0; i < 30000; ++i) text += std::to_string(i) + (i % 7 == 0 ? ".25\n" : " ");
+    for (int i = 0; i < 30000; ++i)
+        text += std::to_string(i) + (i % 7 == 0 ? ".25\n" : " ");
     text += "] \"integer indices\" [";
-    for (int i = 0; i < 30000; ++i) text += std::to_string(i) + "\t";
+    for (int i = 0; i < 30000; ++i)
+        text += std::to_string(i) + "\t";
     const SceneDescription scene = readWorld(text + "]");
     const std::vector<float>& points = scene.shapes[0].parameters.numbers("point3", "P");
     ASSERT_EQ(points.size(), 30000u);
-    for (int i = 0; i < 30000; ++i) ASSERT_EQ(points[i], static_cast<float>(i) + (i % 7 == 0 ? 0.25f : 0.f)) << i;
+    for (int i = 0; i < 30000; ++i)
+        ASSERT_EQ(points[i], static_cast<float>(i) + (i % 7 == 0 ? 0.25f : 0.f)) << i;
     const std::vector<std::int32_t>& indices = scene.shapes[0].parameters.integers("indices");
     ASSERT_EQ(indices.size(), 30000u);
-    for (int i = 0; i < 30000; ++i) ASSERT_EQ(indices[i], i);
+    for (int i = 0; i < 30000; ++i)
+        ASSERT_EQ(indices[i], i);
 }
 
 }  // namespace

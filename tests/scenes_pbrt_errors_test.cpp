@@ -22,17 +22,20 @@ std::string messageOf(const std::string& text) {
 }
 
 void expectMessages(const std::vector<Case>& cases) {
-    for (const Case& c : cases) EXPECT_EQ(messageOf(c.text), c.message) << c.text.substr(0, 200);
+    for (const Case& c : cases)
+        EXPECT_EQ(messageOf(c.text), c.message) << c.text.substr(0, 200);
 }
 
 /// As expectMessages, after "WorldBegin" on a line of its own.
 void expectWorldMessages(const std::vector<Case>& cases) {
-    for (const Case& c : cases) EXPECT_EQ(messageOf("WorldBegin\n" + c.text), c.message) << c.text.substr(0, 200);
+    for (const Case& c : cases)
+        EXPECT_EQ(messageOf("WorldBegin\n" + c.text), c.message) << c.text.substr(0, 200);
 }
 
 std::string repeated(const std::string& text, std::size_t times) {
     std::string out;
-    for (std::size_t i = 0; i < times; ++i) out += text;
+    for (std::size_t i = 0; i < times; ++i)
+        out += text;
     return out;
 }
 
@@ -45,8 +48,10 @@ TEST(ScenesPbrtErrors, WholeTexts) {
         {"\xff\xfeW\0o\0"s, "s.pbrt:1:1: the text is UTF-16; a scene has to be UTF-8"},
         {"WorldBegin\n # a\0b"s, "s.pbrt:2:5: a NUL byte: this is no text in UTF-8"},
         {"Film \"rgb", "s.pbrt:1:6: the string 'rgb' has no closing quote on its line"},
-        {"\x7f" "ELF\x02", "s.pbrt:1:1: unknown directive '\\x7fELF\\x02'" +
-                               messageOf("zzzzzz").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzzz'").size())},
+        {"\x7f"
+         "ELF\x02",
+         "s.pbrt:1:1: unknown directive '\\x7fELF\\x02'" +
+             messageOf("zzzzzz").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzzz'").size())},
         {std::string(1000000, 'S') + " 1",
          "s.pbrt:1:1: unknown directive '" + std::string(60, 'S') + "...'" +
              messageOf("zzzzzz").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzzz'").size())},
@@ -69,8 +74,7 @@ TEST(ScenesPbrtErrors, Directives) {
         {"Sampler", "s.pbrt:1:8: expected the type of the sampler in quotes, found the end of the file"},
         {"ActiveTransform Start", "s.pbrt:1:17: expected StartTime, EndTime or All, found 'Start'"},
         {"TransformTimes 1 0", "s.pbrt:1:1: the second of 'TransformTimes' lies before the first"},
-        {"Attribute \"shpe\" \"float a\" 1",
-         "s.pbrt:1:11: unknown kind of attribute 'shpe'; did you mean 'shape'?"},
+        {"Attribute \"shpe\" \"float a\" 1", "s.pbrt:1:11: unknown kind of attribute 'shpe'; did you mean 'shape'?"},
         {"Option \"seed\" 1.5", "s.pbrt:1:15: expected an integer, found '1.5'"},
         {"Option \"wavefront\" 1", "s.pbrt:1:20: expected true or false, found '1'"},
         {"Include 3", "s.pbrt:1:9: expected the name of the file in quotes, found '3'"},
@@ -95,10 +99,10 @@ TEST(ScenesPbrtErrors, Transforms) {
          "s.pbrt:1:1: 'LookAt' gives no direction: the eye is at the target, or 'up' is zero or along the view"},
         {"Transform [1 2 3 0 4 5 6 0 7 8 9 0 0 0 0 1]", "s.pbrt:1:1: the matrix of 'Transform' has no inverse"},
         {"ConcatTransform [1 0 0 5  0 1 0 0  0 0 1 0  0 0 0 1]",
-         "s.pbrt:1:1: the matrix of 'ConcatTransform' is no affine one: the 4th, 8th and 12th number have to be 0, the 16th "
+         "s.pbrt:1:1: the matrix of 'ConcatTransform' is no affine one: the 4th, 8th and 12th number have to be 0, the "
+         "16th "
          "not (the numbers go column by column)"},
-        {repeated("Scale 1e10 1e10 1e10 ", 5),
-         "s.pbrt:1:64: the transformation after 'Scale' has numbers beyond 1e38"},
+        {repeated("Scale 1e10 1e10 1e10 ", 5), "s.pbrt:1:64: the transformation after 'Scale' has numbers beyond 1e38"},
     });
 }
 
@@ -108,9 +112,11 @@ TEST(ScenesPbrtErrors, Parameters) {
         {"Shape \"s\" \"float a b\" 1",
          "s.pbrt:2:11: expected a parameter as \"type name\", found the string 'float a b'"},
         {"Shape \"s\" \"\" 1", "s.pbrt:2:11: expected a parameter as \"type name\", found the string ''"},
-        {"Shape \"s\" \"flaot radius\" 1", "s.pbrt:2:11: unknown type 'flaot' of parameter 'radius'; did you mean 'float'?"},
+        {"Shape \"s\" \"flaot radius\" 1",
+         "s.pbrt:2:11: unknown type 'flaot' of parameter 'radius'; did you mean 'float'?"},
         {"Shape \"s\"\n \"xyz L\" [1 1 1]",
-         "s.pbrt:3:2: unknown type 'xyz' of parameter 'L'; known: float, integer, bool, string, point2, vector2, point3, "
+         "s.pbrt:3:2: unknown type 'xyz' of parameter 'L'; known: float, integer, bool, string, point2, vector2, "
+         "point3, "
          "vector3, normal, rgb, blackbody, spectrum, texture"},
         {"Shape \"s\" \"float a\" \"1\"", "s.pbrt:2:21: expected a number or '[', found the string '1'"},
         {"Shape \"s\" \"float a\"", "s.pbrt:2:20: expected a number or '[', found the end of the file"},
@@ -145,11 +151,14 @@ TEST(ScenesPbrtErrors, Parameters) {
         {"Shape \"s\" \"rgb c\" [1 -2 1]", "s.pbrt:2:11: parameter 'rgb c' has the negative value -2.000000"},
         {"Shape \"s\" \"string a\" \"\\q\"",
          R"(s.pbrt:2:23: unknown escape '\q' in a string; known: \b \f \n \r \t \\ \' \")"},
-        {"Shape \"s\" " + repeated("\"float a\" 1 ", 2) + [] {
-             std::string many;
-             for (int i = 0; i < 300; ++i) many += "\"float a" + std::to_string(i) + "\" 1 ";
-             return many;
-         }(), "s.pbrt:2:3750: more than 256 parameters in one directive"},
+        {"Shape \"s\" " + repeated("\"float a\" 1 ", 2) +
+             [] {
+                 std::string many;
+                 for (int i = 0; i < 300; ++i)
+                     many += "\"float a" + std::to_string(i) + "\" 1 ";
+                 return many;
+             }(),
+         "s.pbrt:2:3750: more than 256 parameters in one directive"},
     });
 }
 
@@ -184,13 +193,16 @@ TEST(ScenesPbrtErrors, BlocksAndNames) {
 
 TEST(ScenesPbrtErrors, InheritanceCannotExplode) {
     std::string numbers;
-    for (int i = 0; i < 1000000; ++i) numbers += "1 ";
-    EXPECT_NE(messageOf("WorldBegin Attribute \"shape\" \"float x\" [" + numbers + "]\n" + repeated("Shape \"s\"\n", 100))
-                  .find(": what directives inherit from 'Attribute' and from the state takes more than 128 MiB"),
-              std::string::npos);
-    EXPECT_NE(messageOf("WorldBegin NamedMaterial \"" + std::string(1 << 20, 'n') + "\"\n" + repeated("Shape \"s\"\n", 200))
-                  .find(" takes more than 128 MiB"),
-              std::string::npos);
+    for (int i = 0; i < 1000000; ++i)
+        numbers += "1 ";
+    EXPECT_NE(
+        messageOf("WorldBegin Attribute \"shape\" \"float x\" [" + numbers + "]\n" + repeated("Shape \"s\"\n", 100))
+            .find(": what directives inherit from 'Attribute' and from the state takes more than 128 MiB"),
+        std::string::npos);
+    EXPECT_NE(
+        messageOf("WorldBegin NamedMaterial \"" + std::string(1 << 20, 'n') + "\"\n" + repeated("Shape \"s\"\n", 200))
+            .find(" takes more than 128 MiB"),
+        std::string::npos);
 }
 
 }  // namespace

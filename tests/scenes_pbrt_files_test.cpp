@@ -42,7 +42,8 @@ protected:
         } catch (const Error& e) {
             std::string text = e.what();
             const std::string prefix = folder_.string() + "/";
-            for (std::size_t at; (at = text.find(prefix)) != std::string::npos;) text.erase(at, prefix.size());
+            for (std::size_t at; (at = text.find(prefix)) != std::string::npos;)
+                text.erase(at, prefix.size());
             return std::to_string(static_cast<int>(e.kind())) + " " + text;
         }
         return "no error";
@@ -54,13 +55,15 @@ protected:
 
 std::vector<std::string> typesOf(const std::vector<ShapeEntity>& shapes) {
     std::vector<std::string> types;
-    for (const ShapeEntity& s : shapes) types.push_back(s.type);
+    for (const ShapeEntity& s : shapes)
+        types.push_back(s.type);
     return types;
 }
 
 // `Shape "sphere" "float radius" 2`, compressed by gzip.
 constexpr std::string_view kSphereGzip(
-    "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\xff\x0b\xce\x48\x2c\x48\x55\x50\x2a\x2e\xc8\x48\x2d\x4a\x55\x52\x50\x4a\xcb\xc9"
+    "\x1f\x8b\x08\x00\x00\x00\x00\x00\x02\xff\x0b\xce\x48\x2c\x48\x55\x50\x2a\x2e\xc8\x48\x2d\x4a\x55\x52\x50\x4a\xcb"
+    "\xc9"
     "\x4f\x2c\x51\x28\x4a\x4c\xc9\x2c\x2d\x56\x52\x30\xe2\x02\x00\xf9\x8e\x0c\x40\x20\x00\x00\x00",
     52);
 
@@ -96,7 +99,8 @@ TEST_F(ScenesPbrtFiles, IncludeSharesTheStateImportCopiesIt) {
           "Import \"imported.pbrt\" Shape \"after import\" Include \"included.pbrt\" Shape \"after include\"");
     write("imported.pbrt",
           "Shape \"imported\" Translate 1 0 0 Material \"dielectric\" CoordSysTransform \"mine\"\n"
-          "MakeNamedMaterial \"m\" \"string type\" \"diffuse\" LightSource \"point\" ObjectBegin \"o\" Shape \"x\" ObjectEnd");
+          "MakeNamedMaterial \"m\" \"string type\" \"diffuse\" LightSource \"point\" ObjectBegin \"o\" Shape \"x\" "
+          "ObjectEnd");
     write("included.pbrt", "Translate 5 0 0 Material \"interface\"");
     const SceneDescription scene = read("top.pbrt");
     ASSERT_EQ(typesOf(scene.shapes), (std::vector<std::string>{"imported", "after import", "after include"}));
@@ -151,8 +155,9 @@ TEST_F(ScenesPbrtFiles, MissingFilesTellWhoWantedThem) {
     EXPECT_EQ(errorOf("none.pbrt"), "66 none.pbrt: the file 'none.pbrt' cannot be opened: No such file or directory");
     write("top.pbrt", "WorldBegin\n  Include \"a.pbrt\"");
     write("a.pbrt", "\nInclude \"gone.pbrt\"");
-    EXPECT_EQ(errorOf("top.pbrt"),
-              "66 a.pbrt:2:9: the file 'gone.pbrt' cannot be opened: No such file or directory, included from top.pbrt:2:11");
+    EXPECT_EQ(
+        errorOf("top.pbrt"),
+        "66 a.pbrt:2:9: the file 'gone.pbrt' cannot be opened: No such file or directory, included from top.pbrt:2:11");
     write("a.pbrt", "Include \".\"");
     EXPECT_TRUE(errorOf("top.pbrt").starts_with("65 a.pbrt:1:9: expected a file, but '")) << errorOf("top.pbrt");
     EXPECT_NE(errorOf("top.pbrt").find("is a folder, included from top.pbrt:2:11"), std::string::npos);
@@ -167,12 +172,14 @@ TEST_F(ScenesPbrtFiles, ErrorsInIncludedTextsTellTheChain) {
     write("top.pbrt", "WorldBegin Include \"a.pbrt\"");
     write("a.pbrt", "# one\n Include \"b.pbrt\"");
     write("b.pbrt", std::string_view("Shape \"x\0\"", 10));
-    EXPECT_EQ(errorOf("top.pbrt"),
-              "65 b.pbrt:1:9: a NUL byte: this is no text in UTF-8, included from a.pbrt:2:10, included from top.pbrt:1:20");
+    EXPECT_EQ(
+        errorOf("top.pbrt"),
+        "65 b.pbrt:1:9: a NUL byte: this is no text in UTF-8, included from a.pbrt:2:10, included from top.pbrt:1:20");
     write("b.pbrt", "Shap \"x\"");
-    EXPECT_EQ(errorOf("top.pbrt"),
-              "65 b.pbrt:1:1: unknown directive 'Shap'; did you mean 'Shape'?, included from a.pbrt:2:10, included from "
-              "top.pbrt:1:20");
+    EXPECT_EQ(
+        errorOf("top.pbrt"),
+        "65 b.pbrt:1:1: unknown directive 'Shap'; did you mean 'Shape'?, included from a.pbrt:2:10, included from "
+        "top.pbrt:1:20");
 }
 
 TEST_F(ScenesPbrtFiles, CyclesAndDepthEnd) {
@@ -181,13 +188,15 @@ TEST_F(ScenesPbrtFiles, CyclesAndDepthEnd) {
               "65 self.pbrt:1:20: the file 'self.pbrt' is being read already: it would include itself for ever");
     write("a.pbrt", "WorldBegin Include \"b.pbrt\"");
     write("b.pbrt", "Import \"./a.pbrt\"");
-    EXPECT_EQ(errorOf("a.pbrt"),
-              "65 b.pbrt:1:8: the file './a.pbrt' is being read already: it would include itself for ever, included from "
-              "a.pbrt:1:20");
+    EXPECT_EQ(
+        errorOf("a.pbrt"),
+        "65 b.pbrt:1:8: the file './a.pbrt' is being read already: it would include itself for ever, included from "
+        "a.pbrt:1:20");
     for (int i = 0; i < 70; ++i)
-        write(std::to_string(i) + ".pbrt", (i == 0 ? "WorldBegin " : "") + std::string("Include \"") + std::to_string(i + 1) +
-                                               ".pbrt\"");
-    EXPECT_TRUE(errorOf("0.pbrt").starts_with("65 63.pbrt:1:9: files are included more than 64 deep")) << errorOf("0.pbrt");
+        write(std::to_string(i) + ".pbrt",
+              (i == 0 ? "WorldBegin " : "") + std::string("Include \"") + std::to_string(i + 1) + ".pbrt\"");
+    EXPECT_TRUE(errorOf("0.pbrt").starts_with("65 63.pbrt:1:9: files are included more than 64 deep"))
+        << errorOf("0.pbrt");
 }
 
 TEST_F(ScenesPbrtFiles, DoublingIncludesEnd) {

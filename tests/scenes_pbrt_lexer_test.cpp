@@ -21,7 +21,8 @@ std::string tokensOf(std::string_view text) {
     for (;;) {
         const Token token = lexer.next();
         const char kind = "wso]."[static_cast<int>(token.kind)];
-        out += (out.empty() ? "" : " ") + std::string(1, kind) + "(" + std::string(token.text) + ")@" + placeOf(token.where);
+        out += (out.empty() ? "" : " ") + std::string(1, kind) + "(" + std::string(token.text) + ")@" +
+               placeOf(token.where);
         if (token.kind == TokenKind::End) return out;
     }
 }
@@ -56,16 +57,20 @@ TEST(ScenesPbrtLexer, Tokens) {
         {"#", ".()@1:2"},
         {"\"#not | a :: comment\"", "s(#not | a :: comment)@1:1 .()@1:22"},
         {R"("a\"b" c)", R"(s(a\"b)@1:1 w(c)@1:8 .()@1:9)"},
-        {"\xef\xbb\xbf" "a", "w(a)@1:1 .()@1:2"},
+        {"\xef\xbb\xbf"
+         "a",
+         "w(a)@1:1 .()@1:2"},
         {"a\"b\"c", "w(a)@1:1 s(b)@1:2 w(c)@1:5 .()@1:6"},
     };
-    for (const Case& c : cases) EXPECT_EQ(tokensOf(c.text), c.expected) << c.text;
+    for (const Case& c : cases)
+        EXPECT_EQ(tokensOf(c.text), c.expected) << c.text;
 }
 
 TEST(ScenesPbrtLexer, Strings) {
     EXPECT_EQ(decodeString(firstToken(R"("plain")")), "plain");
     EXPECT_EQ(decodeString(firstToken(R"("\b\f\n\r\t\\\'\"")")), "\b\f\n\r\t\\'\"");
-    EXPECT_EQ(decodeString(firstToken("\"\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80\"")), "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+    EXPECT_EQ(decodeString(firstToken("\"\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80\"")),
+              "\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
     struct Case {
         std::string_view text;
         std::string expected;
@@ -78,11 +83,12 @@ TEST(ScenesPbrtLexer, Strings) {
         {R"("C:\dir")", R"(1:4 unknown escape '\d' in a string; known: \b \f \n \r \t \\ \' \")"},
         {"\"ab\xff\"", "1:4 the string is not valid UTF-8"},
         {"\"\xc3\"", "1:2 the string is not valid UTF-8"},
-        {"\"\xc0\xaf\"", "1:2 the string is not valid UTF-8"},           // overlong
-        {"\"\xed\xa0\x80\"", "1:2 the string is not valid UTF-8"},       // a surrogate
-        {"\"\xf4\x90\x80\x80\"", "1:2 the string is not valid UTF-8"},   // beyond U+10FFFF
+        {"\"\xc0\xaf\"", "1:2 the string is not valid UTF-8"},          // overlong
+        {"\"\xed\xa0\x80\"", "1:2 the string is not valid UTF-8"},      // a surrogate
+        {"\"\xf4\x90\x80\x80\"", "1:2 the string is not valid UTF-8"},  // beyond U+10FFFF
     };
-    for (const Case& c : cases) EXPECT_EQ(errorOf([&] { decodeString(firstToken(c.text)); }), c.expected) << c.text;
+    for (const Case& c : cases)
+        EXPECT_EQ(errorOf([&] { decodeString(firstToken(c.text)); }), c.expected) << c.text;
 }
 
 TEST(ScenesPbrtLexer, Numbers) {
@@ -90,10 +96,10 @@ TEST(ScenesPbrtLexer, Numbers) {
         std::string_view text;
         double expected;
     };
-    const std::vector<Case> cases{
-        {"0", 0},        {"-0.5", -0.5},  {"+3", 3},         {".25", 0.25},   {"5.", 5},        {"1e3", 1000},
-        {"1E-2", 0.01},  {"-1e+2", -100}, {"0x1F", 31},      {"-0x10", -16},  {"1e-400", 0},    {"-1e-9999999999", 0},
-        {"0.1", 0.1},    {"00012", 12},   {"0x1.8p1", 3},    {"1e-46", 1e-46}};
+    const std::vector<Case> cases{{"0", 0},     {"-0.5", -0.5}, {"+3", 3},      {".25", 0.25},
+                                  {"5.", 5},    {"1e3", 1000},  {"1E-2", 0.01}, {"-1e+2", -100},
+                                  {"0x1F", 31}, {"-0x10", -16}, {"1e-400", 0},  {"-1e-9999999999", 0},
+                                  {"0.1", 0.1}, {"00012", 12},  {"0x1.8p1", 3}, {"1e-46", 1e-46}};
     for (const Case& c : cases) {
         EXPECT_EQ(parseNumber<double>(firstToken(c.text)), c.expected) << c.text;
         EXPECT_EQ(parseNumber<float>(firstToken(c.text)), static_cast<float>(c.expected)) << c.text;
@@ -108,8 +114,9 @@ TEST(ScenesPbrtLexer, Numbers) {
 }
 
 TEST(ScenesPbrtLexer, NotNumbers) {
-    for (const std::string_view text : {"nan", "inf", "-inf", "-nan(0x1)", "infinity", "1,5", "1.2.3", "1e", "e5", "+-1", "--1",
-                                        "-", "+", ".", "1f", "0x", "0xg", "0x-1", "true", "1e5e5", "-+1"}) {
+    for (const std::string_view text :
+         {"nan", "inf", "-inf", "-nan(0x1)", "infinity", "1,5", "1.2.3", "1e",   "e5",    "+-1", "--1",
+          "-",   "+",   ".",    "1f",        "0x",       "0xg", "0x-1",  "true", "1e5e5", "-+1"}) {
         EXPECT_EQ(errorOf([&] { parseNumber<float>(firstToken(text)); }),
                   "1:1 expected a number, found " + quote(text));
     }

@@ -1,5 +1,7 @@
 #include "core/base/error.h"
 
+#include "core/base/text.h"
+
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
@@ -10,10 +12,6 @@ namespace {
 
 constexpr std::size_t kMostKnown = 50;         // names that a suggestion lists
 constexpr std::size_t kLongestCompared = 100;  // longer names are never near anything: bounds the cost of hostile ones
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
 
 std::string escaped(std::string_view text) {
     std::string out;
@@ -37,10 +35,9 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     for (std::size_t i = 1; i <= a.size(); ++i) {
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+            const bool same = a[i - 1] == b[j - 1];
             row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-            const bool swapped =
-                i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
             if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
         }
         before.swap(last);
@@ -81,7 +78,7 @@ std::vector<std::string> nearestNames(std::string_view name, std::span<const std
         const std::size_t longer = std::max(name.size(), other.size());
         const std::size_t allowed = longer / 3;
         if (longer - std::min(name.size(), other.size()) > allowed || other.size() > kLongestCompared) continue;
-        const std::size_t distance = editDistance(name, other);
+        const std::size_t distance = editDistance(lowerCase(name), lowerCase(other));
         if (distance <= allowed) near.push_back({distance, i});
     }
     std::stable_sort(near.begin(), near.end(), [](Candidate a, Candidate b) { return a.distance < b.distance; });

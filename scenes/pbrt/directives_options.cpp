@@ -1,4 +1,5 @@
 // The directives before WorldBegin: camera, film and how the picture is made.
+#include "core/base/text.h"
 #include "scenes/pbrt/parser.h"
 
 #include <algorithm>
@@ -29,9 +30,8 @@ constexpr std::array<OptionRule, 11> kOptions{{
 
 /// Option names ignore case, '_' and '-'. A type before the name, as parameters have it, says nothing new.
 std::string folded(const std::string& name) {
-    std::string out;
-    for (const char c : name.substr(name.find_last_of(' ') + 1))
-        if (c != '_' && c != '-') out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    std::string out = lowerCase(name.substr(name.find_last_of(' ') + 1));
+    std::erase_if(out, [](char c) { return c == '_' || c == '-'; });
     return out;
 }
 

@@ -1,23 +1,15 @@
 // The directives that change the attribute state: transforms, defaults, colour space; and those that read other files.
+#include "core/base/text.h"
 #include "scenes/pbrt/parser.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace penumbra::pbrt {
 
 namespace {
-
-/// A colour space's name in the format's spelling, empty where there is none of that name. Case does not count.
-std::string canonicalColorSpace(const std::string& name, std::span<const std::string> known) {
-    const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    std::string folded(name.size(), ' ');
-    std::transform(name.begin(), name.end(), folded.begin(), lower);
-    return std::find(known.begin(), known.end(), folded) == known.end() ? std::string() : folded;
-}
 
 /// A single-precision transform has to be made of these later.
 bool fitsFloat(double value) {
@@ -164,8 +156,8 @@ void Parser::attribute() {
 void Parser::colorSpace() {
     static const std::vector<std::string> known{"srgb", "rec2020", "aces2065-1", "dci-p3"};
     const std::string name = values_.readString("the name of the colour space");
-    const std::string canonical = canonicalColorSpace(name, known);
-    if (canonical.empty())
+    const std::string canonical = lowerCase(name);
+    if (std::find(known.begin(), known.end(), canonical) == known.end())
         warn("unknown colour space " + quote(name) + suggestion(name, known) + " (the directive is ignored)");
     else
         state().colorSpace = canonical;
