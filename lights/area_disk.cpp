@@ -2,8 +2,9 @@
 
 namespace penumbra {
 
-DiskLight DiskLight::make(const Vec3<float>& center, const Vec3<float>& radiusX, const Vec3<float>& radiusY, float inner,
-                          float phiMax, const Vec3<float>& normal, const Spectrum<float>& radiance, std::uint32_t flags) {
+DiskLight DiskLight::make(const Vec3<float>& center, const Vec3<float>& radiusX, const Vec3<float>& radiusY,
+                          float inner, float phiMax, const Vec3<float>& normal, const Spectrum<float>& radiance,
+                          std::uint32_t flags) {
     const SpannedPlane plane = spannedPlane(radiusX, radiusY, normal);
     DiskLight light;
     light.center = center;

@@ -1,9 +1,10 @@
 // DiskLight: a diffuse area light on a disk, ring or sector, sampled uniformly in area.
 //
-// The disk is the image of the unit disk under an affine map, so that scaled disks (ellipses) are right too: a map of one
-// plane to another keeps "uniform in area".
-// Invariants: the sampled point is center + radiusX x + radiusY y with (x, y) in the unit disk, inner <= |(x, y)|, and the
-// angle of (x, y) from +x towards +y in [0, phiMax]; area is that of the part.
+// The disk is the image of the unit disk under an affine map, so that scaled disks (ellipses) are right too: a map of
+// one plane to another keeps "uniform in area".
+//
+// Invariants: the sampled point is center + radiusX x + radiusY y with (x, y) in the unit disk, inner <= |(x, y)|, and
+// the angle of (x, y) from +x towards +y in [0, phiMax]; area is that of the part.
 #pragma once
 
 #include "core/math/warps.h"
@@ -23,13 +24,15 @@ struct DiskLight {
 
     /// `radiusX`, `radiusY`: images of the disk's axes times its radius; `inner`: inner radius over radius, in [0, 1);
     /// phiMax in (0, 2 pi]; `normal` says which side emits.
-    static DiskLight make(const Vec3<float>& center, const Vec3<float>& radiusX, const Vec3<float>& radiusY, float inner,
-                          float phiMax, const Vec3<float>& normal, const Spectrum<float>& radiance, std::uint32_t flags);
+    static DiskLight make(const Vec3<float>& center, const Vec3<float>& radiusX, const Vec3<float>& radiusY,
+                          float inner, float phiMax, const Vec3<float>& normal, const Spectrum<float>& radiance,
+                          std::uint32_t flags);
 
     float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
 
     template <class F>
-    static LightSample<F> sample(const Records<F, DiskLight>& light, const LightTables&, const Vec3<F>& p, const Vec2<F>& u);
+    static LightSample<F> sample(const Records<F, DiskLight>& light, const LightTables&, const Vec3<F>& p,
+                                 const Vec2<F>& u);
     template <class F>
     static LightEval<F> evaluate(const Records<F, DiskLight>& light, const LightTables&, const LightHit<F>& hit);
 };
@@ -53,7 +56,8 @@ Vec2<F> diskPoint(const Vec2<F>& u, F inner, F phiMax) {
 }  // namespace detail
 
 template <class F>
-LightSample<F> DiskLight::sample(const Records<F, DiskLight>& light, const LightTables&, const Vec3<F>& p, const Vec2<F>& u) {
+LightSample<F> DiskLight::sample(const Records<F, DiskLight>& light, const LightTables&, const Vec3<F>& p,
+                                 const Vec2<F>& u) {
     const Vec2<F> q = detail::diskPoint(u, light(&DiskLight::inner), light(&DiskLight::phiMax));
     const Vec3<F> center = light(&DiskLight::center) - p;
     const Vec3<F> d = center + light(&DiskLight::radiusX) * q.x + light(&DiskLight::radiusY) * q.y;
@@ -66,7 +70,8 @@ LightSample<F> DiskLight::sample(const Records<F, DiskLight>& light, const Light
 
 template <class F>
 LightEval<F> DiskLight::evaluate(const Records<F, DiskLight>& light, const LightTables&, const LightHit<F>& hit) {
-    const F z = dot(light(&DiskLight::center) - hit.from, light(&DiskLight::normal)), distance = length(hit.p - hit.from);
+    const F z = dot(light(&DiskLight::center) - hit.from, light(&DiskLight::normal));
+    const F distance = length(hit.p - hit.from);
     const F pdf = distance * distance * distance / (abs(z) * light(&DiskLight::area));
     return lightEval(emitsTowards<F>(z, light(&DiskLight::flags)) & isFinite(pdf), light(&DiskLight::radiance), pdf);
 }

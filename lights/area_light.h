@@ -1,11 +1,12 @@
 // What the diffuse area lights (rectangle, triangle, sphere, disk: one file per shape) have in common.
 //
-// In a scene file they are one plug-in, `AreaLightSource "diffuse"`, put on a shape: it emits the same radiance from every
-// point in every direction, on the side of the shape's geometric normal, or on both sides where it is two-sided.
+// In a scene file they are one plug-in, `AreaLightSource "diffuse"`, put on a shape: it emits the same radiance from
+// every point in every direction, on the side of the shape's geometric normal, or on both sides where it is two-sided.
 //
 // Sampling. By default a shape is sampled by the solid angle that it subtends, so that every sample weighs the same and
-// the 1 / d^2 of near lights is gone. `--light-sampling area` (LightTables::classicArea) is the estimator of the textbooks
-// instead: a point q uniform on the surface (density 1 / A per area), converted to solid angle by d^2 / cos(at the light), so
+// the 1 / d^2 of near lights is gone. `--light-sampling area` (LightTables::classicArea) is the estimator of the
+// textbooks instead: a point q uniform on the surface, its density 1 / A per area converted to solid angle by
+// d^2 / cos(at the light), so
 //     f(wo, wi) L V(p, q) cos(at the surface) cos(at the light) / d^2 * A.
 // Both have the same expectation; the second varies more, without bound as the point nears the light.
 #pragma once
@@ -25,9 +26,12 @@ inline constexpr PluginInfo kDiffuseAreaInfo = {
     "diffuse", "area light on a shape: constant radiance on the side of the normal", kDiffuseAreaParameters};
 
 // Flags of an area light.
-inline constexpr std::uint32_t kLightTwoSided = 1;   ///< emits on both sides
-inline constexpr std::uint32_t kLightReversed = 2;   ///< quadrics only: the outside is where the object-space normal does not point
-inline constexpr std::uint32_t kLightUnmet = 4;      ///< rays pass through the shape (alpha 0), so that only sampling finds the light
+/// Emits on both sides.
+inline constexpr std::uint32_t kLightTwoSided = 1;
+/// Quadrics only: the outside is where the object-space normal does not point.
+inline constexpr std::uint32_t kLightReversed = 2;
+/// Rays pass through the shape (alpha 0), so that only sampling finds the light.
+inline constexpr std::uint32_t kLightUnmet = 4;
 
 template <class F>
 Mask<F> hasFlag(UInt<F> flags, std::uint32_t flag) {
@@ -39,16 +43,18 @@ inline float diffusePower(float radiance, float area, std::uint32_t flags) {
     return kPi * radiance * area * ((flags & kLightTwoSided) ? 2.f : 1.f);
 }
 
-/// Whether a flat light shines on a point. `z` is the light's offset from the point along the normal, negative in front.
+/// Whether a flat light shines on a point. `z` is the light's offset from the point along the normal, negative in
+/// front.
 template <class F>
 Mask<F> emitsTowards(F z, UInt<F> flags) {
     return (z < F(0.f)) | (hasFlag<F>(flags, kLightTwoSided) & (z > F(0.f)));
 }
 
-/// The plane that two edges span: computed in double, because corners far from the origin leave few digits to the edges.
+/// The plane that two edges span: computed in double, because corners far from the origin leave few digits to the
+/// edges.
 struct SpannedPlane {
-    Vec3<float> normal;     ///< unit, on the side of `facing`
-    float area;             ///< of the parallelogram
+    Vec3<float> normal;  ///< unit, on the side of `facing`
+    float area;          ///< of the parallelogram
 };
 SpannedPlane spannedPlane(const Vec3<float>& edgeX, const Vec3<float>& edgeY, const Vec3<float>& facing);
 

@@ -6,7 +6,9 @@
 namespace penumbra {
 namespace {
 
-bool same(const Vec3<float>& a, const Vec3<float>& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+bool same(const Vec3<float>& a, const Vec3<float>& b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
 
 struct Edge {
     double x, y, z;
@@ -33,7 +35,8 @@ RectangleLight RectangleLight::make(const Vec3<float>& corner, const Vec3<float>
     return light;
 }
 
-std::optional<RectangleShape> rectangleOfTriangles(const std::array<Vec3<float>, 3>& a, const std::array<Vec3<float>, 3>& b) {
+std::optional<RectangleShape> rectangleOfTriangles(const std::array<Vec3<float>, 3>& a,
+                                                   const std::array<Vec3<float>, 3>& b) {
     constexpr double kTolerance = 1e-5;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3<float>&apex = a[i], &first = a[(i + 1) % 3], &second = a[(i + 2) % 3];

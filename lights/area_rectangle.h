@@ -1,13 +1,13 @@
 // RectangleLight: a diffuse area light on a rectangle, sampled uniformly in solid angle.
 //
-// Source: Urena, Fajardo, King 2013, "An area-preserving parametrization for spherical rectangles" (CGF 32(4)): first x by
-// the solid angle of the strip between the rectangle's left edge and x, then y by the sine of the elevation. The formulas
-// here are re-derived so that they hold in single precision; the paper's sums of four arc cosines lose all digits of small
-// or grazing rectangles. With the point at the origin, the rectangle [x0, x1] x [y0, y1] at height h, lengths relative to
-// the farthest corner, and for an edge e_i = sqrt(y_i^2 + h^2), b_i = y_i / e_i, c_i = h / e_i:
+// Source: Urena, Fajardo, King 2013, "An area-preserving parametrization for spherical rectangles" (CGF 32(4)): first x
+// by the solid angle of the strip between the rectangle's left edge and x, then y by the sine of the elevation. The
+// formulas here are re-derived so that they hold in single precision; the paper's sums of four arc cosines lose all
+// digits of small or grazing rectangles. With the point at the origin, the rectangle [x0, x1] x [y0, y1] at height h,
+// lengths relative to the farthest corner, and for an edge e_i = sqrt(y_i^2 + h^2), b_i = y_i / e_i, c_i = h / e_i:
 //   - the solid angle is the sum over corners of +-arg(h l + i x y), l the distance, added by multiplying the complex
-//     numbers; small ones, where the sum cancels, are those of two triangles (van Oosterom, Strackee 1983), whose numerators
-//     are products of lengths;
+//     numbers; small ones, where the sum cancels, are those of two triangles (van Oosterom, Strackee 1983), whose
+//     numerators are products of lengths;
 //   - A(x), the signed solid angle between the planes x = 0 and x, has sin A = sin f cos f (b1 k0 - b0 k1) and
 //     cos A = cos^2 f k0 k1 + sin^2 f b0 b1, with tan f = x / h and k_i = sqrt(x^2 + e_i^2) / e_i;
 //   - its inverse is, with s = sin A/2, k = cos A/2, B = b1 - b0,
@@ -30,7 +30,7 @@ struct RectangleLight {
     static constexpr bool kDelta = false;
 
     Vec3<float> corner, axisX, axisY, normal;
-    float width, height;             ///< along axisX, axisY
+    float width, height;  ///< along axisX, axisY
     Spectrum<float> radiance;
     std::uint32_t flags;
 
@@ -44,16 +44,19 @@ struct RectangleLight {
     static LightSample<F> sample(const Records<F, RectangleLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u);
     template <class F>
-    static LightEval<F> evaluate(const Records<F, RectangleLight>& light, const LightTables& tables, const LightHit<F>& hit);
+    static LightEval<F> evaluate(const Records<F, RectangleLight>& light, const LightTables& tables,
+                                 const LightHit<F>& hit);
 };
 
 struct RectangleShape {
     Vec3<float> corner, edgeX, edgeY;
 };
 
-/// The rectangle that two triangles make, to a part in 1e5 of its shorter edge: they share a diagonal (equal coordinates),
-/// are wound the same way, and the four corners make a parallelogram with right angles. Nothing otherwise.
-std::optional<RectangleShape> rectangleOfTriangles(const std::array<Vec3<float>, 3>& a, const std::array<Vec3<float>, 3>& b);
+/// The rectangle that two triangles make, to a part in 1e5 of its shorter edge: they share a diagonal (equal
+/// coordinates), are wound the same way, and the four corners make a parallelogram with right angles. Nothing
+/// otherwise.
+std::optional<RectangleShape> rectangleOfTriangles(const std::array<Vec3<float>, 3>& a,
+                                                   const std::array<Vec3<float>, 3>& b);
 
 namespace detail {
 
@@ -65,14 +68,15 @@ struct Complex {
     }
 };
 
-/// The rectangle as seen from a point: in its own axes, the point at the origin, in units of the farthest corner's distance.
+/// The rectangle as seen from a point: in its own axes, the point at the origin, in units of the farthest corner's
+/// distance.
 template <class F>
 struct RectangleView {
-    F z;                        ///< offset along the normal (world units), negative on the side that emits
-    F unit;                     ///< distance of the farthest corner
+    F z;     ///< offset along the normal (world units), negative on the side that emits
+    F unit;  ///< distance of the farthest corner
     F x0, x1, y0, y1, h;
     F width, height;
-    F l00, l01, l10, l11;       ///< distances to the corners (x index first)
+    F l00, l01, l10, l11;  ///< distances to the corners (x index first)
 
     RectangleView(const Records<F, RectangleLight>& light, const Vec3<F>& p) {
         const Vec3<F> d = light(&RectangleLight::corner) - p;
@@ -157,8 +161,8 @@ F RectangleView<F>::sampleX(F halfAngle, F u) const {
 
 template <class F>
 F RectangleView<F>::sampleY(F x, F u) const {
-    // t = y / sqrt(y^2 + d^2) is uniform. It is 1 to all digits where y is far beyond d: so turn the side with the farther
-    // end to the positive, and interpolate 1 - t.
+    // t = y / sqrt(y^2 + d^2) is uniform. It is 1 to all digits where y is far beyond d: so turn the side with the
+    // farther end to the positive, and interpolate 1 - t.
     const F dd = x * x + h * h;
     const Mask<F> turned = y0 + y1 < F(0.f);
     const F a = select(turned, -y1, y0), b = select(turned, -y0, y1);
@@ -178,8 +182,8 @@ Vec2<F> RectangleView<F>::sampleSolidAngle(F halfAngle, const Vec2<F>& u) const 
 }  // namespace detail
 
 template <class F>
-LightSample<F> RectangleLight::sample(const Records<F, RectangleLight>& light, const LightTables& tables, const Vec3<F>& p,
-                                      const Vec2<F>& u) {
+LightSample<F> RectangleLight::sample(const Records<F, RectangleLight>& light, const LightTables& tables,
+                                      const Vec3<F>& p, const Vec2<F>& u) {
     const detail::RectangleView<F> view(light, p);
     const UInt<F> flags = light(&RectangleLight::flags);
 
@@ -200,8 +204,8 @@ LightSample<F> RectangleLight::sample(const Records<F, RectangleLight>& light, c
     pdf = select(spherical, pdf, view.pdfArea(distance));
     const Vec3<F> d = light(&RectangleLight::axisX) * q.x + light(&RectangleLight::axisY) * q.y +
                       light(&RectangleLight::normal) * view.z;
-    return lightSample(emitsTowards<F>(view.z, flags) & isFinite(pdf), d * (F(1.f) / distance), distance, light(&RectangleLight::radiance), pdf,
-                       hasFlag<F>(flags, kLightUnmet));
+    return lightSample(emitsTowards<F>(view.z, flags) & isFinite(pdf), d * (F(1.f) / distance), distance,
+                       light(&RectangleLight::radiance), pdf, hasFlag<F>(flags, kLightUnmet));
 }
 
 template <class F>

@@ -11,8 +11,8 @@ Vec3<float> rounded(const Matrix4& m, int row) {
     return {float(r[0]), float(r[1]), float(r[2])};
 }
 
-/// World area of a part of the unit sphere under the map whose inverse transpose is given: an element dA with the normal n
-/// becomes |det M| |M^-T n| dA.
+/// World area of a part of the unit sphere under the map whose inverse transpose is given: an element dA with the
+/// normal n becomes |det M| |M^-T n| dA.
 double mappedArea(const Matrix4& inverseTranspose, double determinant, double zMin, double zMax, double phiMax) {
     constexpr int kZ = 64, kPhi = 64;
     double sum = 0;

@@ -1,12 +1,13 @@
 // SphereLight: a diffuse area light on a sphere, an ellipsoid (a sphere under any affine map) or a part of one.
 //
-// All work is done in object space, where the sphere has radius 1 and its centre at the origin; a direction w there becomes
-// M w in the world, and densities per solid angle change by |M w|^3 / |det M|. So scaled spheres are sampled rightly too.
-//   - The whole sphere from outside: uniform in the cone that it subtends. With 1 - cos = part * (1 - cosMax) nothing
-//     cancels for small angles (1 - cosMax = 1 / (d^2 (1 + cosMax))), nor near the surface (cosMax^2 = (d - 1)(d + 1) / d^2).
+// All work is done in object space, where the sphere has radius 1 and its centre at the origin; a direction w there
+// becomes M w in the world, and densities per solid angle change by |M w|^3 / |det M|. So scaled spheres are sampled
+// rightly too.
+//   - The whole sphere from outside: uniform in the cone that it subtends. Nothing cancels for small angles, because
+//     1 - cosMax = 1 / (d^2 (1 + cosMax)), nor near the surface, because cosMax^2 = (d - 1)(d + 1) / d^2.
 //   - The whole sphere from inside (it emits there if two-sided or reversed): uniform directions.
-//   - A part (zmin, zmax, phimax), whose inside may be seen through the opening, or with classicArea: uniform in the area of
-//     the unit sphere's part.
+//   - A part (zmin, zmax, phimax), whose inside may be seen through the opening, or any sphere with classicArea:
+//     uniform in the area of the unit sphere's part.
 //
 // Invariants: toWorld has the columns of M, toObject the rows of its inverse; |det M| inverseScale^3 = 1.
 #pragma once
@@ -26,14 +27,14 @@ struct SphereLight {
     Vec3<float> toWorldX, toWorldY, toWorldZ;
     Vec3<float> toObjectX, toObjectY, toObjectZ;
     float inverseScale;
-    float zMin, zMax, phiMax;       ///< of the unit sphere; -1, 1, 2 pi where it is whole
-    float area;                     ///< in the world
+    float zMin, zMax, phiMax;  ///< of the unit sphere; -1, 1, 2 pi where it is whole
+    float area;                ///< in the world
     Spectrum<float> radiance;
-    std::uint32_t flags;            ///< kLightReversed: the outside (the side that emits) is towards the centre
-    std::uint32_t whole;            ///< 1 or 0
+    std::uint32_t flags;  ///< kLightReversed: the outside (the side that emits) is towards the centre
+    std::uint32_t whole;  ///< 1 or 0
 
-    /// The sphere of `radius` about the origin of object space, cut to zMin <= z <= zMax (in its units) and angles up to
-    /// phiMax. False where the matrix is singular or not finite; `light` is then untouched.
+    /// The sphere of `radius` about the origin of object space, cut to zMin <= z <= zMax (in its units) and angles up
+    /// to phiMax. False where the matrix is singular or not finite; `light` is then untouched.
     static bool make(const Matrix4& worldFromObject, double radius, double zMin, double zMax, double phiMax,
                      const Spectrum<float>& radiance, std::uint32_t flags, SphereLight& light);
 
@@ -43,7 +44,8 @@ struct SphereLight {
     static LightSample<F> sample(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u);
     template <class F>
-    static LightEval<F> evaluate(const Records<F, SphereLight>& light, const LightTables& tables, const LightHit<F>& hit);
+    static LightEval<F> evaluate(const Records<F, SphereLight>& light, const LightTables& tables,
+                                 const LightHit<F>& hit);
 };
 
 namespace detail {
@@ -51,13 +53,13 @@ namespace detail {
 /// The unit sphere as seen from a point of its object space.
 template <class F>
 struct SphereView {
-    Vec3<F> o;               ///< the point
-    F d;                     ///< its distance from the centre
-    F excess;                ///< d^2 - 1
+    Vec3<F> o;  ///< the point
+    F d;        ///< its distance from the centre
+    F excess;   ///< d^2 - 1
     Mask<F> inside;
     Mask<F> whole;
-    Mask<F> byArea;          ///< the light is sampled by area
-    Mask<F> outwards, inwards;   ///< emits to the outside, the inside of the sphere (not of its orientation)
+    Mask<F> byArea;             ///< the light is sampled by area
+    Mask<F> outwards, inwards;  ///< emits to the outside, the inside of the sphere (not of its orientation)
 
     SphereView(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p) {
         o = toObject(light, p - light(&SphereLight::center));
@@ -118,7 +120,7 @@ Vec3<F> SphereView<F>::sampleDirection(const Vec2<F>& u, F& distance) const {
     const F cosine = F(1.f) - versine;
     const Vec3<F> inCone = frame.toWorld({q.x * spread, q.y * spread, cosine});
     const F sine2 = versine * (F(2.f) - versine);
-    const F near = excess / max(d * cosine + safeSqrt(F(1.f) - d * d * sine2), F(1e-20f));   // 0 / 0 on the horizon
+    const F near = excess / max(d * cosine + safeSqrt(F(1.f) - d * d * sine2), F(1e-20f));  // 0 / 0 on the horizon
     if (none(inside)) {
         distance = near;
         return inCone;
@@ -155,16 +157,18 @@ LightSample<F> SphereLight::sample(const Records<F, SphereLight>& light, const L
                       light(&SphereLight::toWorldZ) * direction.z;
     const F stretch = length(w), relative = stretch * light(&SphereLight::inverseScale);
     pdf = pdf * (relative * relative * relative);
-    return lightSample(valid & isFinite(pdf), w * (F(1.f) / stretch), distance * stretch, light(&SphereLight::radiance), pdf,
-                       hasFlag<F>(light(&SphereLight::flags), kLightUnmet));
+    return lightSample(valid & isFinite(pdf), w * (F(1.f) / stretch), distance * stretch, light(&SphereLight::radiance),
+                       pdf, hasFlag<F>(light(&SphereLight::flags), kLightUnmet));
 }
 
 template <class F>
-LightEval<F> SphereLight::evaluate(const Records<F, SphereLight>& light, const LightTables& tables, const LightHit<F>& hit) {
+LightEval<F> SphereLight::evaluate(const Records<F, SphereLight>& light, const LightTables& tables,
+                                   const LightHit<F>& hit) {
     const detail::SphereView<F> view(light, tables, hit.from);
     const Vec3<F> q = view.toObject(light, hit.p - light(&SphereLight::center));
     F pdf = select(view.byArea, view.pdfArea(light, q), view.pdfDirection());
-    // The unit direction w of the world is M^-1 w in object space, so the unit direction there is stretched by 1 / |M^-1 w|.
+    // The unit direction w of the world is M^-1 w in object space, so the unit direction there is stretched by 1 /
+    // |M^-1 w|.
     const F relative = light(&SphereLight::inverseScale) / length(view.toObject(light, hit.wi));
     pdf = pdf * (relative * relative * relative);
     return lightEval(view.lit(q) & isFinite(pdf), light(&SphereLight::radiance), pdf);

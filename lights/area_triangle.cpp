@@ -2,8 +2,8 @@
 
 namespace penumbra {
 
-TriangleLight TriangleLight::make(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c, const Vec3<float>& normal,
-                                  const Spectrum<float>& radiance, std::uint32_t flags) {
+TriangleLight TriangleLight::make(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c,
+                                  const Vec3<float>& normal, const Spectrum<float>& radiance, std::uint32_t flags) {
     TriangleLight light;
     light.corner = a;
     light.edgeB = b - a;

@@ -2,14 +2,14 @@
 //
 // Source: Peters 2021, "BRDF importance sampling for polygonal lights" (ACM TOG 40(4), section 3.2), a form of Arvo's
 // spherical triangle sampling (1995) without inverse cosines: with unit vectors a, b, c to the corners and
-// G0 = |det(a, b, c)|, G1 = (a + b) . c, G2 = 1 + a . b, the solid angle is 2 atan2(G0, G1 + G2) (van Oosterom, Strackee
-// 1983), and the part u.x of it ends at the reflection c' of a about (G0 cos - G1 sin) a + G2 sin c, where sin and cos are
-// of the part's half angle; then a point of the arc from b to c', by the cosine.
-// So that nothing cancels for small triangles, G0 is twice the area times the height over the three distances, and the arc
-// is parametrised by 1 - cosine.
+// G0 = |det(a, b, c)|, G1 = (a + b) . c, G2 = 1 + a . b, the solid angle is 2 atan2(G0, G1 + G2) (van Oosterom,
+// Strackee 1983), and the part u.x of it ends at the reflection c' of a about (G0 cos - G1 sin) a + G2 sin c, where sin
+// and cos are of the part's half angle; then a point of the arc from b to c', by the cosine.
+// So that nothing cancels for small triangles, G0 is twice the area times the height over the three distances, and the
+// arc is parametrised by its versine (1 - cosine).
 //
-// Small triangles, where positions would not be resolved, are sampled by area (Heitz 2019, "A low-distortion map between
-// triangle and square": continuous, no root).
+// Small triangles, where positions would not be resolved, are sampled by area (Heitz 2019, "A low-distortion map
+// between triangle and square": continuous, no root).
 //
 // Invariants: normal is a unit vector, on the side that emits (both where two-sided).
 #pragma once
@@ -23,15 +23,15 @@ struct TriangleLight {
     static constexpr bool kInfinite = false;
     static constexpr bool kDelta = false;
 
-    Vec3<float> corner, edgeB, edgeC;   ///< edges from the corner to the other two
+    Vec3<float> corner, edgeB, edgeC;  ///< edges from the corner to the other two
     Vec3<float> normal;
     float area;
     Spectrum<float> radiance;
     std::uint32_t flags;
 
     /// `normal` says which side emits; only its side of the triangle matters. REQUIRES: an area that is not 0.
-    static TriangleLight make(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c, const Vec3<float>& normal,
-                              const Spectrum<float>& radiance, std::uint32_t flags);
+    static TriangleLight make(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c,
+                              const Vec3<float>& normal, const Spectrum<float>& radiance, std::uint32_t flags);
 
     float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
 
@@ -39,7 +39,8 @@ struct TriangleLight {
     static LightSample<F> sample(const Records<F, TriangleLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u);
     template <class F>
-    static LightEval<F> evaluate(const Records<F, TriangleLight>& light, const LightTables& tables, const LightHit<F>& hit);
+    static LightEval<F> evaluate(const Records<F, TriangleLight>& light, const LightTables& tables,
+                                 const LightHit<F>& hit);
 };
 
 namespace detail {
@@ -47,15 +48,17 @@ namespace detail {
 /// The triangle as seen from a point at the origin.
 template <class F>
 struct TriangleView {
-    Vec3<F> corner, edgeB, edgeC;      ///< corner relative to the point
-    F z, h;                            ///< offset along the normal, negative on the side that emits; its size
+    Vec3<F> corner, edgeB, edgeC;  ///< corner relative to the point
+    F z, h;                        ///< offset along the normal, negative on the side that emits; its size
     F area;
-    Vec3<F> a, b, c;                   ///< unit vectors to the corners
+    Vec3<F> a, b, c;  ///< unit vectors to the corners
     F g0, g1, g2;
-    F farthest;                        ///< distance of the farthest corner, hence of any point
+    F farthest;  ///< distance of the farthest corner, hence of any point
 
     TriangleView(const Records<F, TriangleLight>& light, const Vec3<F>& p)
-        : corner(light(&TriangleLight::corner) - p), edgeB(light(&TriangleLight::edgeB)), edgeC(light(&TriangleLight::edgeC)) {
+        : corner(light(&TriangleLight::corner) - p),
+          edgeB(light(&TriangleLight::edgeB)),
+          edgeC(light(&TriangleLight::edgeC)) {
         z = dot(corner, light(&TriangleLight::normal));
         h = abs(z);
         area = light(&TriangleLight::area);
@@ -87,7 +90,7 @@ Vec3<F> TriangleView<F>::sampleSolidAngle(F halfAngle, const Vec2<F>& u) const {
     sinCos(u.x * halfAngle, s, k);
     const Vec3<F> axis = a * (g0 * k - g1 * s) + c * (g2 * s);
     const Vec3<F> end = axis * (F(2.f) * dot(a, axis) / dot(axis, axis)) - a;
-    const F versine = F(0.5f) * lengthSquared(b - end);           // 1 - cos of the arc from b to its end
+    const F versine = F(0.5f) * lengthSquared(b - end);  // 1 - cos of the arc from b to its end
     const F part = u.y * versine;
     const F t = sqrt(u.y * (F(2.f) - part) / (F(2.f) - versine));
     return b * ((F(1.f) - part) - t * (F(1.f) - versine)) + end * t;
@@ -104,8 +107,8 @@ Vec2<F> triangleWeights(const Vec2<F>& u) {
 }  // namespace detail
 
 template <class F>
-LightSample<F> TriangleLight::sample(const Records<F, TriangleLight>& light, const LightTables& tables, const Vec3<F>& p,
-                                     const Vec2<F>& u) {
+LightSample<F> TriangleLight::sample(const Records<F, TriangleLight>& light, const LightTables& tables,
+                                     const Vec3<F>& p, const Vec2<F>& u) {
     detail::TriangleView<F> view(light, p);
     const UInt<F> flags = light(&TriangleLight::flags);
     Mask<F> valid = emitsTowards<F>(view.z, flags);
@@ -139,7 +142,8 @@ LightEval<F> TriangleLight::evaluate(const Records<F, TriangleLight>& light, con
         const F half = view.halfSolidAngle();
         pdf = select(half >= F(0.5f * kSmallestSolidAngle), F(0.5f) / half, pdf);
     }
-    return lightEval(emitsTowards<F>(view.z, light(&TriangleLight::flags)) & isFinite(pdf), light(&TriangleLight::radiance), pdf);
+    return lightEval(emitsTowards<F>(view.z, light(&TriangleLight::flags)) & isFinite(pdf),
+                     light(&TriangleLight::radiance), pdf);
 }
 
 }  // namespace penumbra

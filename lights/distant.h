@@ -17,7 +17,7 @@ inline constexpr ParameterInfo kDistantParameters[] = {
 
 struct DistantLight {
     static constexpr PluginInfo kInfo = {"distant", "parallel light from one direction", kDistantParameters};
-    static constexpr bool kInfinite = false;   // no ray meets it
+    static constexpr bool kInfinite = false;  // no ray meets it
     static constexpr bool kDelta = true;
 
     Vec3<float> toLight;
@@ -29,7 +29,8 @@ struct DistantLight {
     }
 
     template <class F>
-    static LightSample<F> sample(const Records<F, DistantLight>& light, const LightTables&, const Vec3<F>&, const Vec2<F>&) {
+    static LightSample<F> sample(const Records<F, DistantLight>& light, const LightTables&, const Vec3<F>&,
+                                 const Vec2<F>&) {
         return lightSample(Mask<F>(true), light(&DistantLight::toLight), F(kInfinity), light(&DistantLight::irradiance),
                            F(1.f), Mask<F>(true));
     }

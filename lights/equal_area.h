@@ -1,6 +1,6 @@
 // The equal-area octahedral map between the unit square and the sphere of directions (Clarberg 2008, "Fast equal-area
-// mapping of the (hemi)sphere using SIMD", J. Graphics Tools 13(3)), which environment images of the pbrt format use: every
-// pixel of an n x n image covers 4 pi / n^2 steradians.
+// mapping of the (hemi)sphere using SIMD", J. Graphics Tools 13(3)), which environment images of the pbrt format use:
+// every pixel of an n x n image covers 4 pi / n^2 steradians.
 //
 // Conventions: (s, t) in [0, 1]^2, t grows downwards in the image; +z is the centre of the square, -z its four corners,
 // +x the middle of the right edge, +y the middle of the bottom edge.
@@ -14,7 +14,7 @@ template <class F>
 Vec3<F> equalAreaDirection(const Vec2<F>& st) {
     const F u = F(2.f) * st.x - F(1.f), v = F(2.f) * st.y - F(1.f);
     const F au = abs(u), av = abs(v);
-    const F side = (F(1.f) - au) - av;                       // positive in the upper half
+    const F side = (F(1.f) - au) - av;  // positive in the upper half
     const F r = F(1.f) - abs(side);
     const F turn = select(r > F(0.f), (av - au) / select(r > F(0.f), r, F(1.f)), F(0.f));
     F s, c;

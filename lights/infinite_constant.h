@@ -1,7 +1,7 @@
 // ConstantInfiniteLight: the same radiance from every direction; `LightSource "infinite"` without an image.
 //
-// Sampled uniformly over the sphere, where it is sampled at all: BSDF sampling is nearly perfect for it, so light samplers
-// leave it out unless they are told that there is no other strategy (LightSampler's includeUniformInfinite).
+// Sampled uniformly over the sphere, where it is sampled at all: BSDF sampling is nearly perfect for it, so light
+// samplers leave it out unless they are told that there is no other strategy (LightSampler's includeUniformInfinite).
 #pragma once
 
 #include "core/math/warps.h"
@@ -25,7 +25,8 @@ struct ConstantInfiniteLight {
         return lightSample(!isBlack(L), uniformSphere(u), F(kInfinity), L, F(kInvFourPi), Mask<F>(false));
     }
     template <class F>
-    static LightEval<F> evaluate(const Records<F, ConstantInfiniteLight>& light, const LightTables&, const LightHit<F>&) {
+    static LightEval<F> evaluate(const Records<F, ConstantInfiniteLight>& light, const LightTables&,
+                                 const LightHit<F>&) {
         const Spectrum<F> L = light(&ConstantInfiniteLight::radiance);
         return lightEval(!isBlack(L), L, F(kInvFourPi));
     }

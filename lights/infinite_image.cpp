@@ -19,22 +19,27 @@ std::array<Vec3<float>, 3> orthonormalAxes(const Matrix4& m) {
         const double before = std::hypot(v[0], v[1], v[2]);
         for (std::size_t k = 0; k < c; ++k) {
             const double along = v[0] * done[k][0] + v[1] * done[k][1] + v[2] * done[k][2];
-            for (std::size_t i = 0; i < 3; ++i) v[i] -= along * done[k][i];
+            for (std::size_t i = 0; i < 3; ++i)
+                v[i] -= along * done[k][i];
         }
         const double size = std::hypot(v[0], v[1], v[2]);
         if (!(size > 1e-9 * before)) throw Error(ErrorKind::BadData, "the matrix of an infinite light is singular");
-        for (std::size_t i = 0; i < 3; ++i) done[c][i] = v[i] / size;
+        for (std::size_t i = 0; i < 3; ++i)
+            done[c][i] = v[i] / size;
         axes[c] = {float(done[c][0]), float(done[c][1]), float(done[c][2])};
     }
     return axes;
 }
 
-float usable(float x) { return std::isfinite(x) && x > 0.f ? x : 0.f; }
+float usable(float x) {
+    return std::isfinite(x) && x > 0.f ? x : 0.f;
+}
 
 }  // namespace
 
-ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::size_t resolution, const Spectrum<float>& scale,
-                                            const Matrix4& worldFromLight, LightTables& tables) {
+ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::size_t resolution,
+                                            const Spectrum<float>& scale, const Matrix4& worldFromLight,
+                                            LightTables& tables) {
     const std::size_t count = resolution * resolution;
     const std::size_t needed = 4 * count + (resolution + 1) * (resolution + 1);
     if (resolution == 0 || resolution > kMaxResolution ||

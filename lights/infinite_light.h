@@ -1,4 +1,5 @@
-// What the infinite lights (constant, image) have in common: in a scene file they are one plug-in, `LightSource "infinite"`.
+// What the infinite lights (constant, image) have in common: in a scene file they are one plug-in, `LightSource
+// "infinite"`.
 #pragma once
 
 #include "lights/light.h"

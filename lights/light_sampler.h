@@ -1,25 +1,25 @@
 // LightSampler: which light a path looks at next, and how likely that was.
 //
-// Two rules: `uniform` (every light alike) and `power` (by emitted flux). Both pick by inverting one cumulative table, so
-// that stratified numbers spread over the lights in proportion; probabilities are exact (core/math/distribution.h).
-// A constant infinite light is never picked unless `includeUniformInfinite` says so: BSDF sampling is nearly perfect for
-// it. It then has probability 0, which gives BSDF sampling its whole weight; a strategy that samples lights only must ask for it.
+// Two rules: `uniform` (every light alike) and `power` (by emitted flux). Both pick by inverting one cumulative table,
+// so that stratified numbers spread over the lights in proportion; probabilities are exact (core/math/distribution.h).
+// A constant infinite light is never picked unless `includeUniformInfinite` says so: BSDF sampling is nearly perfect
+// for it. It then has probability 0, which gives BSDF sampling its whole weight; a strategy that samples lights only
+// must ask for it.
 //
 // Thread safety: immutable once built.
-// Invariants: a light of power 0 is never picked; where nothing can be picked, empty() holds and every probability is 0.
+// Invariants: a light of power 0 is never picked; where nothing can be picked, empty() and every probability is 0.
 #pragma once
 
 #include "core/math/distribution.h"
 #include "lights/registry.h"
 
-#include <string>
 #include <string_view>
 
 namespace penumbra {
 
 enum class LightSelection { Uniform, Power };
 
-/// "uniform" or "power"; Error(Usage) naming both for any other word ("bvh" and the like are the caller's to substitute).
+/// "uniform" or "power"; Error(Usage) for any other word (to substitute "bvh" and the like is the caller's business).
 LightSelection lightSelectionFromName(std::string_view name);
 
 class LightSampler {
@@ -54,7 +54,7 @@ public:
 private:
     std::vector<float> table_;
     std::uint32_t lights_ = 0, stride_ = 0;
-    std::int64_t only_ = -1;          ///< the one light that can be picked, -1 where there are several or none
+    std::int64_t only_ = -1;  ///< the one light that can be picked, -1 where there are several or none
 };
 
 }  // namespace penumbra

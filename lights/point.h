@@ -25,7 +25,8 @@ struct PointLight {
     float power(const LightTables&) const { return 4.f * kPi * average(intensity); }
 
     template <class F>
-    static LightSample<F> sample(const Records<F, PointLight>& light, const LightTables&, const Vec3<F>& p, const Vec2<F>&) {
+    static LightSample<F> sample(const Records<F, PointLight>& light, const LightTables&, const Vec3<F>& p,
+                                 const Vec2<F>&) {
         const Vec3<F> d = light(&PointLight::position) - p;
         const F distance = length(d), inverse = F(1.f) / distance;
         const Mask<F> valid = isFinite(inverse * inverse) & isFinite(distance);

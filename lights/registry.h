@@ -1,9 +1,9 @@
-// The light types and the table of a scene's lights: the one place that lists them. A new light is one file and one entry
-// of LightTypes; its factory entry is the scene builder's, its property tests are folds over this list.
+// The light types and the table of a scene's lights: the one place that lists them. A new light is one file and one
+// entry of LightTypes; its factory entry is the scene builder's, its property tests are folds over this list.
 //
-// A light's id is its number in order of adding (dense from 0). Each lane of a group has its own light; a group is sampled by
-// a loop over the distinct types in it, each computing all lanes, and a select. Scenes with one type (most) pass the loop
-// once without a select, and where all lanes have one light, Records turns its gathers into broadcasts.
+// A light's id is its number in order of adding (dense from 0). Each lane of a group has its own light; a group is
+// sampled by a loop over the distinct types in it, each computing all lanes, and a select. Scenes with one type (most)
+// pass the loop once without a select, and where all lanes have one light, Records turns its gathers into broadcasts.
 //
 // Thread safety: immutable once built.
 // Invariants: places()[id] is tag << kRowBits | row.
@@ -19,6 +19,7 @@
 #include "lights/infinite_image.h"
 #include "lights/point.h"
 
+#include <algorithm>
 #include <span>
 #include <tuple>
 
@@ -39,7 +40,7 @@ class LightTable {
 public:
     static constexpr unsigned kRowBits = 27;
 
-    /// The id of the new light. Error(BadData) beyond 2^27 lights of one type.
+    /// The id of the new light. Error(BadData) where its row lies beyond the reach of Records or the bits of a place.
     template <class T>
     std::uint32_t add(const T& light);
 
@@ -54,7 +55,9 @@ public:
         return ((tag(id) == kTagOf<Ts, LightTypes>) || ...);
     }
     template <class T>
-    std::span<const T> rows() const { return std::get<std::vector<T>>(rows_); }
+    std::span<const T> rows() const {
+        return std::get<std::vector<T>>(rows_);
+    }
     const std::uint32_t* places() const { return places_.data(); }
     std::uint32_t tag(std::uint32_t id) const { return places_[id] >> kRowBits; }
     std::uint32_t row(std::uint32_t id) const { return places_[id] & ((1u << kRowBits) - 1u); }
@@ -70,7 +73,8 @@ template <class T>
 std::uint32_t LightTable::add(const T& light) {
     static_assert(kTagOf<T, LightTypes> < LightTypes::size && LightTypes::size <= 32u);
     std::vector<T>& rows = std::get<std::vector<T>>(rows_);
-    if (rows.size() >> kRowBits) throw Error(ErrorKind::BadData, "more than 2^27 lights of one type");
+    constexpr std::size_t kMaxRows = std::min(std::size_t(1) << kRowBits, (std::size_t(1) << 31) / (sizeof(T) / 4));
+    if (rows.size() >= kMaxRows) throw Error(ErrorKind::BadData, "too many lights of one type");
     const std::uint32_t id = size();
     places_.push_back(kTagOf<T, LightTypes> << kRowBits | std::uint32_t(rows.size()));
     rows.push_back(light);

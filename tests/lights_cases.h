@@ -17,22 +17,38 @@ struct LightCase {
     std::string name;
     LightTable lights;
     Vec3<float> from{};
-    /// All points of the light that a ray from `from` in the unit direction w meets with nothing before them but the light's
-    /// own openings; empty function for delta lights. Computed in double, by other means than the light's own.
+    /// All points of the light that a ray from `from` in the unit direction w meets with nothing before them but the
+    /// light's own openings; empty function for delta lights. Computed in double, by other means than the light's own.
     std::function<std::vector<LightHit<float>>(const Vec3d& w)> meet;
 };
 
 template <class T>
-struct LightCases;   // static std::vector<LightCase> make(double scale): everything scaled about the origin
+struct LightCases;  // static std::vector<LightCase> make(double scale): everything scaled about the origin
 
-inline Vec3d operator+(Vec3d a, Vec3d b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec3d operator-(Vec3d a, Vec3d b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec3d operator*(Vec3d a, double s) { return {a.x * s, a.y * s, a.z * s}; }
-inline double dot(Vec3d a, Vec3d b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline double length(Vec3d a) { return std::sqrt(dot(a, a)); }
-inline Vec3d cross(Vec3d a, Vec3d b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline Vec3<float> rounded(Vec3d a) { return {float(a.x), float(a.y), float(a.z)}; }
-inline Vec3d widened(const Vec3<float>& a) { return {a.x, a.y, a.z}; }
+inline Vec3d operator+(Vec3d a, Vec3d b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Vec3d operator-(Vec3d a, Vec3d b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Vec3d operator*(Vec3d a, double s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+inline double dot(Vec3d a, Vec3d b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline double length(Vec3d a) {
+    return std::sqrt(dot(a, a));
+}
+inline Vec3d cross(Vec3d a, Vec3d b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Vec3<float> rounded(Vec3d a) {
+    return {float(a.x), float(a.y), float(a.z)};
+}
+inline Vec3d widened(const Vec3<float>& a) {
+    return {a.x, a.y, a.z};
+}
 
 inline const Spectrum<float> kTestRadiance = {2.f, 1.f, 0.5f};
 
@@ -64,9 +80,11 @@ struct LightCases<RectangleLight> {
             c.name = "rectangle " + name;
             corner = corner * scale, ex = ex * scale, ey = ey * scale;
             c.from = rounded(from * scale);
-            c.lights.add(RectangleLight::make(rounded(corner), rounded(ex), rounded(ey), rounded(facing), kTestRadiance, flags));
+            c.lights.add(
+                RectangleLight::make(rounded(corner), rounded(ex), rounded(ey), rounded(facing), kTestRadiance, flags));
             c.lights.tables.classicArea = classic;
-            c.meet = meetPlane(c.from, corner, ex, ey, [](double a, double b) { return a >= 0 && a <= 1 && b >= 0 && b <= 1; });
+            c.meet = meetPlane(c.from, corner, ex, ey,
+                               [](double a, double b) { return a >= 0 && a <= 1 && b >= 0 && b <= 1; });
             cases.push_back(std::move(c));
         };
         const Vec3d x{1, 0, 0}, y{0, 1, 0}, down{0, 0, -1}, up{0, 0, 1};
@@ -89,14 +107,17 @@ template <>
 struct LightCases<TriangleLight> {
     static std::vector<LightCase> make(double scale) {
         std::vector<LightCase> cases;
-        const auto add = [&](std::string name, Vec3d a, Vec3d b, Vec3d c, Vec3d from, std::uint32_t flags = 0, bool classic = false) {
+        const auto add = [&](std::string name, Vec3d a, Vec3d b, Vec3d c, Vec3d from, std::uint32_t flags = 0,
+                             bool classic = false) {
             LightCase l;
             l.name = "triangle " + name;
             a = a * scale, b = b * scale, c = c * scale;
             l.from = rounded(from * scale);
-            l.lights.add(TriangleLight::make(rounded(a), rounded(b), rounded(c), rounded(widened(l.from) - a), kTestRadiance, flags));
+            l.lights.add(TriangleLight::make(rounded(a), rounded(b), rounded(c), rounded(widened(l.from) - a),
+                                             kTestRadiance, flags));
             l.lights.tables.classicArea = classic;
-            l.meet = meetPlane(l.from, a, b - a, c - a, [](double u, double v) { return u >= 0 && v >= 0 && u + v <= 1; });
+            l.meet =
+                meetPlane(l.from, a, b - a, c - a, [](double u, double v) { return u >= 0 && v >= 0 && u + v <= 1; });
             cases.push_back(std::move(l));
         };
         add("over its corner", {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0});
@@ -122,7 +143,8 @@ struct LightCases<SphereLight> {
     };
     static std::vector<LightCase> make(double scale) {
         std::vector<LightCase> cases;
-        const auto add = [&](std::string name, Matrix4 m, Vec3d from, Part part = {}, std::uint32_t flags = 0, bool classic = false) {
+        const auto add = [&](std::string name, Matrix4 m, Vec3d from, Part part = {}, std::uint32_t flags = 0,
+                             bool classic = false) {
             LightCase c;
             c.name = "sphere " + name;
             m = scaling(scale, scale, scale) * m;
@@ -151,7 +173,8 @@ struct LightCases<SphereLight> {
     }
 
 private:
-    static std::function<std::vector<LightHit<float>>(const Vec3d&)> meet(const Vec3<float>& from, const Matrix4& m, Part part) {
+    static std::function<std::vector<LightHit<float>>(const Vec3d&)> meet(const Vec3<float>& from, const Matrix4& m,
+                                                                          Part part) {
         Matrix4 inverse;
         invert(m, inverse);
         return [=](const Vec3d& w) {
@@ -176,8 +199,8 @@ template <>
 struct LightCases<DiskLight> {
     static std::vector<LightCase> make(double scale) {
         std::vector<LightCase> cases;
-        const auto add = [&](std::string name, Vec3d center, Vec3d rx, Vec3d ry, double inner, double phiMax, Vec3d from,
-                             std::uint32_t flags = 0) {
+        const auto add = [&](std::string name, Vec3d center, Vec3d rx, Vec3d ry, double inner, double phiMax,
+                             Vec3d from, std::uint32_t flags = 0) {
             LightCase c;
             c.name = "disk " + name;
             center = center * scale, rx = rx * scale, ry = ry * scale;
@@ -220,7 +243,9 @@ struct LightCases<DistantLight> {
     }
 };
 
-inline std::vector<LightHit<float>> meetInfinity(const Vec3d& w) { return {LightHit<float>{{}, {}, rounded(w)}}; }
+inline std::vector<LightHit<float>> meetInfinity(const Vec3d& w) {
+    return {LightHit<float>{{}, {}, rounded(w)}};
+}
 
 template <>
 struct LightCases<ConstantInfiniteLight> {
@@ -253,7 +278,8 @@ struct LightCases<ImageInfiniteLight> {
             cases.push_back(std::move(c));
         };
         add("of one pixel", 1, Matrix4{}, [](auto, auto) { return 1.f; });
-        add("with a bright pixel", 8, rotation(50, 1, 1, 0), [](auto x, auto y) { return x == 2 && y == 5 ? 100.f : 1.f; });
+        add("with a bright pixel", 8, rotation(50, 1, 1, 0),
+            [](auto x, auto y) { return x == 2 && y == 5 ? 100.f : 1.f; });
         add("half black", 5, rotation(-90, 1, 0, 0), [](auto x, auto y) { return y < 3 ? 0.f : float(x); });
         add("mirrored", 6, scaling(1, -1, 1), [](auto x, auto y) { return float(x * x + y); });
         return cases;
@@ -264,7 +290,8 @@ struct LightCases<ImageInfiniteLight> {
 inline std::vector<LightCase> allLightCases(double scale = 1) {
     std::vector<LightCase> all;
     forEachType(LightTypes{}, [&]<class T>() {
-        for (LightCase& c : LightCases<T>::make(scale)) all.push_back(std::move(c));
+        for (LightCase& c : LightCases<T>::make(scale))
+            all.push_back(std::move(c));
     });
     return all;
 }

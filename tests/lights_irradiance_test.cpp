@@ -1,5 +1,5 @@
-// The irradiance that light sampling gives, against closed forms and between the two strategies: at the default and with
-// classic area sampling, at scales from 1e-4 to 1e6. Sums over a grid of sample numbers: no randomness.
+// The irradiance that light sampling gives, against closed forms and between the two strategies: at the default and
+// with classic area sampling, at scales from 1e-4 to 1e6. Sums over a grid of sample numbers: no randomness.
 #include "tests/lights_cases.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,8 @@ double gridMean(const LightTable& lights, const Vec3<float>& from, int side, Wei
     for (int i = 0; i < side; ++i) {
         for (int j = 0; j < side; j += 8) {
             const Lanes8f x = toFloat<Lanes8f>(laneIndices<Lanes8f>() + Lanes8u(std::uint32_t(j)));
-            const Vec2<Lanes8f> u = {(x + Lanes8f(0.5f)) * Lanes8f(1.f / float(side)), Lanes8f((float(i) + 0.5f) / float(side))};
+            const Vec2<Lanes8f> u = {(x + Lanes8f(0.5f)) * Lanes8f(1.f / float(side)),
+                                     Lanes8f((float(i) + 0.5f) / float(side))};
             const auto s = sampleLight<Lanes8f>(lights, Lanes8u(0u), broadcast<Lanes8f>(from), u);
             for (int k = 0; k < 8; ++k) {
                 if (lane(s.valid, k)) sum += weigh(widened(lane(s.wi, k)), lane(s.L.r, k), lane(s.pdf, k));
@@ -29,17 +30,17 @@ double gridMean(const LightTable& lights, const Vec3<float>& from, int side, Wei
 }
 
 double irradiance(const LightTable& lights, Vec3d from, Vec3d normal, int side = 512) {
-    return gridMean(lights, rounded(from), side, [&](const Vec3d& wi, float L, float pdf) {
-        return L * std::max(0.0, dot(wi, normal)) / pdf;
-    });
+    return gridMean(lights, rounded(from), side,
+                    [&](const Vec3d& wi, float L, float pdf) { return L * std::max(0.0, dot(wi, normal)) / pdf; });
 }
 
 const Spectrum<float> kOne = {1.f, 1.f, 1.f};
 
-/// Both strategies, at three scales: the receiver is at the origin. `toleranceByArea` is larger where the light's horizon
-/// cuts through the sample numbers.
+/// Both strategies, at three scales: the receiver is at the origin. `toleranceByArea` is larger where the light's
+/// horizon cuts through the sample numbers.
 template <class Build>
-void expectIrradiance(const char* name, double expected, Vec3d normal, double tolerance, double toleranceByArea, Build build) {
+void expectIrradiance(const char* name, double expected, Vec3d normal, double tolerance, double toleranceByArea,
+                      Build build) {
     for (const double scale : {1e-4, 1.0, 1e6}) {
         for (const bool classic : {false, true}) {
             LightTable lights;
@@ -53,53 +54,70 @@ void expectIrradiance(const char* name, double expected, Vec3d normal, double to
 
 void addSphere(LightTable& lights, double radius, Vec3d center, double scale) {
     SphereLight light;
-    ASSERT_TRUE(SphereLight::make(scaling(scale, scale, scale) * translation(center.x, center.y, center.z), radius, -radius,
-                                  radius, 2 * kPiD, kOne, 0, light));
+    ASSERT_TRUE(SphereLight::make(scaling(scale, scale, scale) * translation(center.x, center.y, center.z), radius,
+                                  -radius, radius, 2 * kPiD, kOne, 0, light));
     lights.add(light);
 }
 
 void addRectangle(LightTable& lights, Vec3d corner, Vec3d ex, Vec3d ey, Vec3d facing, double scale) {
-    lights.add(RectangleLight::make(rounded(corner * scale), rounded(ex * scale), rounded(ey * scale), rounded(facing), kOne, 0));
+    lights.add(RectangleLight::make(rounded(corner * scale), rounded(ex * scale), rounded(ey * scale), rounded(facing),
+                                    kOne, 0));
 }
 
 void addDisk(LightTable& lights, Vec3d center, double scale) {
-    lights.add(DiskLight::make(rounded(center * scale), rounded(Vec3d{scale, 0, 0}), rounded(Vec3d{0, scale, 0}), 0, kTwoPi,
-                               {0, 0, -1}, kOne, 0));
+    lights.add(DiskLight::make(rounded(center * scale), rounded(Vec3d{scale, 0, 0}), rounded(Vec3d{0, scale, 0}), 0,
+                               kTwoPi, {0, 0, -1}, kOne, 0));
 }
 
 const Vec3d kUp{0, 0, 1};
 
 TEST(LightsIrradiance, Sphere) {
-    expectIrradiance("sphere along the normal", kPiD / 4, kUp, 2e-5, 1e-3,
-                     [](LightTable& l, double s) { addSphere(l, 1, {0, 0, 2}, s); });
+    expectIrradiance("sphere along the normal", kPiD / 4, kUp, 2e-5, 1e-3, [](LightTable& l, double s) {
+        addSphere(l, 1, {0, 0, 2}, s);
+    });
     expectIrradiance("tilted receiver", kPiD / 9 * 0.5, {std::sqrt(0.75), 0, 0.5}, 2e-5, 1e-3,
-                     [](LightTable& l, double s) { addSphere(l, 1, {0, 0, 3}, s); });
+                     [](LightTable& l, double s) {
+                         addSphere(l, 1, {0, 0, 3}, s);
+                     });
     expectIrradiance("sphere on the horizon", std::atan(1 / std::sqrt(3.0)) - std::sqrt(3.0) / 4, {1, 0, 0}, 2e-4, 1e-3,
-                     [](LightTable& l, double s) { addSphere(l, 1, {0, 0, 2}, s); });
-    expectIrradiance("sphere far away", kPiD * 1e-8, kUp, 2e-5, 1e-3,
-                     [](LightTable& l, double s) { addSphere(l, 1, {0, 0, 1e4}, s); });
+                     [](LightTable& l, double s) {
+                         addSphere(l, 1, {0, 0, 2}, s);
+                     });
+    expectIrradiance("sphere far away", kPiD * 1e-8, kUp, 2e-5, 1e-3, [](LightTable& l, double s) {
+        addSphere(l, 1, {0, 0, 1e4}, s);
+    });
 }
 
 TEST(LightsIrradiance, Disk) {
-    expectIrradiance("disk on axis", kPiD / 2, kUp, 2e-5, 2e-5, [](LightTable& l, double s) { addDisk(l, {0, 0, 1}, s); });
-    expectIrradiance("disk off axis", 0.8683148537, kUp, 2e-5, 2e-5, [](LightTable& l, double s) { addDisk(l, {1, 0, 1}, s); });
-    expectIrradiance("disk from a wall", 0.2683240463, {1, 0, 0}, 2e-5, 2e-5,
-                     [](LightTable& l, double s) { addDisk(l, {2, 0, 1}, s); });
+    expectIrradiance("disk on axis", kPiD / 2, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
+        addDisk(l, {0, 0, 1}, s);
+    });
+    expectIrradiance("disk off axis", 0.8683148537, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
+        addDisk(l, {1, 0, 1}, s);
+    });
+    expectIrradiance("disk from a wall", 0.2683240463, {1, 0, 0}, 2e-5, 2e-5, [](LightTable& l, double s) {
+        addDisk(l, {2, 0, 1}, s);
+    });
     expectIrradiance("ring", kPiD / 2 - kPiD * 0.25 / 1.25, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
-        l.add(DiskLight::make(rounded(kUp * s), rounded(Vec3d{s, 0, 0}), rounded(Vec3d{0, s, 0}), 0.5f, kTwoPi, {0, 0, -1}, kOne, 0));
+        l.add(DiskLight::make(rounded(kUp * s), rounded(Vec3d{s, 0, 0}), rounded(Vec3d{0, s, 0}), 0.5f, kTwoPi,
+                              {0, 0, -1}, kOne, 0));
     });
     expectIrradiance("a third of the disk", kPiD / 6, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
-        l.add(DiskLight::make(rounded(kUp * s), rounded(Vec3d{s, 0, 0}), rounded(Vec3d{0, s, 0}), 0.f, kTwoPi / 3, {0, 0, -1}, kOne, 0));
+        l.add(DiskLight::make(rounded(kUp * s), rounded(Vec3d{s, 0, 0}), rounded(Vec3d{0, s, 0}), 0.f, kTwoPi / 3,
+                              {0, 0, -1}, kOne, 0));
     });
 }
 
 TEST(LightsIrradiance, Rectangle) {
-    expectIrradiance("square over its corner", 0.4352098757, kUp, 2e-5, 2e-5,
-                     [](LightTable& l, double s) { addRectangle(l, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, s); });
-    expectIrradiance("square over its centre", 1.740839503, kUp, 2e-5, 2e-5,
-                     [](LightTable& l, double s) { addRectangle(l, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, {0, 0, -1}, s); });
-    expectIrradiance("wall light on the floor", 0.1750941439, kUp, 2e-5, 2e-5,
-                     [](LightTable& l, double s) { addRectangle(l, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, s); });
+    expectIrradiance("square over its corner", 0.4352098757, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
+        addRectangle(l, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, s);
+    });
+    expectIrradiance("square over its centre", 1.740839503, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
+        addRectangle(l, {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, {0, 0, -1}, s);
+    });
+    expectIrradiance("wall light on the floor", 0.1750941439, kUp, 2e-5, 2e-5, [](LightTable& l, double s) {
+        addRectangle(l, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, s);
+    });
 }
 
 TEST(LightsIrradiance, TwoTrianglesMakeTheSquare) {
@@ -109,7 +127,8 @@ TEST(LightsIrradiance, TwoTrianglesMakeTheSquare) {
             LightTable lights;
             lights.tables.classicArea = classic;
             const Vec3<float> a = {0, 0, 1}, b = {1, 0, 1}, c = {1, 1, 1}, d = {0, 1, 1};
-            lights.add(second ? TriangleLight::make(a, c, d, {0, 0, -1}, kOne, 0) : TriangleLight::make(a, b, c, {0, 0, -1}, kOne, 0));
+            lights.add(second ? TriangleLight::make(a, c, d, {0, 0, -1}, kOne, 0)
+                              : TriangleLight::make(a, b, c, {0, 0, -1}, kOne, 0));
             sum += irradiance(lights, {}, kUp);
         }
         EXPECT_NEAR(sum, 0.4352098757, 2e-5 * sum);
@@ -128,7 +147,8 @@ TEST(LightsIrradiance, Skies) {
     const Matrix4 m = rotation(-90, 1, 0, 0);
     image.add(ImageInfiniteLight::make(rgb, 64, kOne, m, image.tables));
     const Vec3<float> d = equalAreaDirection<float>({38.5f / 64, 20.5f / 64});
-    EXPECT_NEAR(irradiance(image, {}, transformVector(m, widened(d))), 4 * kPiD / (64 * 64), 1e-3 * 4 * kPiD / (64 * 64));
+    EXPECT_NEAR(irradiance(image, {}, transformVector(m, widened(d))), 4 * kPiD / (64 * 64),
+                1e-3 * 4 * kPiD / (64 * 64));
 }
 
 TEST(LightsIrradiance, DeltaLights) {
@@ -140,8 +160,8 @@ TEST(LightsIrradiance, DeltaLights) {
     EXPECT_NEAR(irradiance(distant, {}, kUp, 8), 0.8, 1e-6);
 }
 
-/// The whole field of every case (no cosine at the receiver), but for those where the point nearly touches the light: there
-/// the weights by area are too peaked for a grid.
+/// The whole field of every case (no cosine at the receiver), but for those where the point nearly touches the light:
+/// there the weights by area are too peaked for a grid.
 TEST(LightsIrradiance, ClassicAreaSamplingAgreesInExpectation) {
     for (LightCase& c : allLightCases()) {
         if (c.name == "triangle nearly all" || c.name == "sphere near its surface") continue;

@@ -1,5 +1,5 @@
-// Lights where they are hard: from behind, in their plane, on their edges, at their centre, at extreme distances and with the
-// extreme sample numbers. Nothing may be NaN, and nothing may arrive where nothing can.
+// Lights where they are hard: from behind, in their plane, on their edges, at their centre, at extreme distances and
+// with the extreme sample numbers. Nothing may be NaN, and nothing may arrive where nothing can.
 #include "tests/lights_cases.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@ void expectSound(const LightSample<float>& s, const std::string& name) {
     const bool unit = std::abs(dot(s.wi, s.wi) - 1.f) < 1e-5f;
     const bool positive = s.pdf > 0.f && isFinite(s.pdf) && s.distance >= 0.f;
     const bool light = s.L.r >= 0.f && s.L.g >= 0.f && s.L.b >= 0.f && isFinite(s.L.r + s.L.g + s.L.b);
-    EXPECT_TRUE(unit && positive && light) << name << ": wi " << s.wi.x << ' ' << s.wi.y << ' ' << s.wi.z << ", distance "
-                                           << s.distance << ", pdf " << s.pdf << ", L " << s.L.r;
+    EXPECT_TRUE(unit && positive && light) << name << ": wi " << s.wi.x << ' ' << s.wi.y << ' ' << s.wi.z
+                                           << ", distance " << s.distance << ", pdf " << s.pdf << ", L " << s.L.r;
     if (!s.valid) {
         EXPECT_TRUE(s.L.r == 0.f && s.L.g == 0.f && s.L.b == 0.f && s.pdf == 1.f) << name;
     }
@@ -29,7 +29,8 @@ void expectSoundFrom(const LightCase& c, const Vec3<float>& from, const std::str
             expectSound(s, c.name + where);
             const Vec3<float> p = from + s.wi * min(s.distance, 1e10f);
             const LightEval<float> e = evaluateLight<float>(c.lights, 0, {from, p, s.wi});
-            EXPECT_TRUE(e.pdf >= 0.f && isFinite(e.pdf) && e.L.r >= 0.f && isFinite(e.L.r)) << c.name << where << ' ' << e.pdf;
+            EXPECT_TRUE(e.pdf >= 0.f && isFinite(e.pdf) && e.L.r >= 0.f && isFinite(e.L.r))
+                << c.name << where << ' ' << e.pdf;
         }
     }
 }
@@ -39,7 +40,8 @@ TEST(LightsRobustness, NoCaseGivesNaN) {
         for (const LightCase& c : allLightCases(scale)) {
             expectSoundFrom(c, c.from, " at scale " + std::to_string(scale));
             for (const float far : {1e-6f, 1e-3f, 1e3f, 1e6f, 1e9f}) {
-                for (const Vec3<float>& d : {Vec3<float>{1, 0, 0}, Vec3<float>{0, 0, -1}, Vec3<float>{0.3f, -0.5f, 0.8f}})
+                for (const Vec3<float>& d :
+                     {Vec3<float>{1, 0, 0}, Vec3<float>{0, 0, -1}, Vec3<float>{0.3f, -0.5f, 0.8f}})
                     expectSoundFrom(c, c.from + d * far, " from " + std::to_string(far) + " away");
             }
         }
@@ -69,7 +71,8 @@ void expectDark(const LightTable& lights, const Vec3<float>& from, const Vec3<fl
         LightTable table = lights;
         table.tables.classicArea = classic;
         for (const float x : kEnds) {
-            for (const float y : kEnds) EXPECT_FALSE(sampleLight<float>(table, 0, from, {x, y}).valid) << name;
+            for (const float y : kEnds)
+                EXPECT_FALSE(sampleLight<float>(table, 0, from, {x, y}).valid) << name;
         }
         const LightEval<float> e = evaluateLight<float>(table, 0, {from, p, normalize(p - from)});
         EXPECT_TRUE(isBlack(e.L) && e.pdf == 0.f) << name;
@@ -126,7 +129,8 @@ TEST(LightsRobustness, SampledPointsLieOnTheRectangle) {
     };
     for (int i = 0; i < 20000; ++i) {
         const float width = power(-3, 3), height = power(-3, 3), h = power(-4, 2), offset = power(-3, 2);
-        const auto light = RectangleLight::make({-offset, offset * 0.5f, h}, {width, 0, 0}, {0, height, 0}, {0, 0, -1}, kTestRadiance, 0);
+        const auto light = RectangleLight::make({-offset, offset * 0.5f, h}, {width, 0, 0}, {0, height, 0}, {0, 0, -1},
+                                                kTestRadiance, 0);
         const Vec2<float> u = {float(generator() >> 8) * 0x1p-24f, float(generator() >> 8) * 0x1p-24f};
         const LightSample<float> s = sampleLight<float>(tableOf(light), 0, {}, u);
         ASSERT_TRUE(s.valid);

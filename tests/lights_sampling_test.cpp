@@ -13,8 +13,8 @@
 namespace penumbra::test {
 namespace {
 
-constexpr int kRows = 16, kColumns = 24;   // cells of the directions
-constexpr int kCoarse = 8, kFine = 80;     // evaluations along a cell's side: of a smooth density, and across an edge
+constexpr int kRows = 16, kColumns = 24;  // cells of the directions
+constexpr int kCoarse = 8, kFine = 80;    // evaluations along a cell's side: of a smooth density, and across an edge
 constexpr int kSamples = 1 << 18;
 
 Vec2<Lanes8f> randomPair(std::mt19937& generator) {
@@ -32,9 +32,11 @@ public:
     /// A cone around the given directions, somewhat wider.
     explicit DirectionCells(const std::vector<Vec3d>& directions) {
         Vec3d sum;
-        for (const Vec3d& w : directions) sum = sum + w;
+        for (const Vec3d& w : directions)
+            sum = sum + w;
         axis_ = length(sum) > 0 ? sum * (1 / length(sum)) : Vec3d{0, 0, 1};
-        for (const Vec3d& w : directions) versine_ = std::max(versine_, versine(w));
+        for (const Vec3d& w : directions)
+            versine_ = std::max(versine_, versine(w));
         versine_ = std::min(2.0, 1.2 * versine_);
         x_ = std::abs(axis_.x) > 0.9 ? cross(axis_, {0, 1, 0}) : cross(axis_, {1, 0, 0});
         x_ = x_ * (1 / length(x_));
@@ -61,17 +63,19 @@ private:
 
 double density(const LightCase& c, const Vec3d& w) {
     double sum = 0;
-    for (const LightHit<float>& hit : c.meet(w)) sum += evaluateLight<float>(c.lights, 0, hit).pdf;
+    for (const LightHit<float>& hit : c.meet(w))
+        sum += evaluateLight<float>(c.lights, 0, hit).pdf;
     return sum;
 }
 
 /// The density over one cell, by a jittered grid (the edges of lights may run along a grid).
 struct CellIntegral {
     double probability = 0;
-    double covered = 0;   ///< share of the cell with a density
+    double covered = 0;  ///< share of the cell with a density
     bool smooth = true;
 };
-CellIntegral integrate(const LightCase& c, const DirectionCells& cells, int row, int column, int side, std::mt19937& generator) {
+CellIntegral integrate(const LightCase& c, const DirectionCells& cells, int row, int column, int side,
+                       std::mt19937& generator) {
     double sum = 0, smallest = 1e300, largest = 0;
     int positive = 0;
     for (int i = 0; i < side; ++i) {
@@ -89,8 +93,8 @@ CellIntegral integrate(const LightCase& c, const DirectionCells& cells, int row,
 }
 
 struct Comparison {
-    double integral;      ///< of the density
-    double validShare;    ///< of the samples
+    double integral;    ///< of the density
+    double validShare;  ///< of the samples
     double pValue;
 };
 
@@ -144,8 +148,8 @@ TEST(LightsSampling, DirectionsHaveTheDensityThatLightsName) {
     for (const LightCase& c : allLightCases()) {
         if (!c.meet) continue;
         const Comparison result = compare(c, seed++);
-        // The sum over directions knows edges, and the pole of an area density where a sphere is grazed, to a few 1e-3; the
-        // share is taken to 5 standard deviations.
+        // The sum over directions knows edges, and the pole of an area density where a sphere is grazed, to a few 1e-3;
+        // the share is taken to 5 standard deviations.
         const double deviation = std::sqrt(result.validShare * (1 - result.validShare) / kSamples);
         EXPECT_NEAR(result.integral, result.validShare, 5e-3 + 5 * deviation) << c.name;
         names.push_back(c.name);
@@ -177,7 +181,9 @@ TEST(LightsSampling, SampleAndEvaluateAgree) {
 }
 
 template <class F>
-std::uint32_t bitsOf(const F& x, int i) { return floatBits(lane(x, i)); }
+std::uint32_t bitsOf(const F& x, int i) {
+    return floatBits(lane(x, i));
+}
 
 void expectSameBits(const LightSample<Lanes8f>& wide, int i, const LightSample<float>& one, const std::string& name) {
     EXPECT_TRUE(bitsOf(wide.wi.x, i) == floatBits(one.wi.x) && bitsOf(wide.wi.y, i) == floatBits(one.wi.y) &&
@@ -231,10 +237,12 @@ TEST(LightsSampling, EightLanesGiveTheBitsOfOne) {
             const LightEval<Lanes8f> wideEval = evaluateLight(table, id, hit);
             for (int i = 0; i < 8; ++i) {
                 const std::string name = "light " + std::to_string(lane(id, i));
-                expectSameBits(wide, i, sampleLight<float>(table, lane(id, i), lane(from, i), {lane(u.x, i), lane(u.y, i)}), name);
+                expectSameBits(
+                    wide, i, sampleLight<float>(table, lane(id, i), lane(from, i), {lane(u.x, i), lane(u.y, i)}), name);
                 const LightEval<float> e =
                     evaluateLight<float>(table, lane(id, i), {lane(from, i), lane(hit.p, i), lane(hit.wi, i)});
-                EXPECT_TRUE(bitsOf(wideEval.pdf, i) == floatBits(e.pdf) && bitsOf(wideEval.L.r, i) == floatBits(e.L.r)) << name;
+                EXPECT_TRUE(bitsOf(wideEval.pdf, i) == floatBits(e.pdf) && bitsOf(wideEval.L.r, i) == floatBits(e.L.r))
+                    << name;
             }
             if (testing::Test::HasFailure()) return;
         }

@@ -8,7 +8,9 @@ namespace {
 
 constexpr double kSteps = 0x1p24;
 
-double usable(double weight) { return std::isfinite(weight) && weight > 0 ? weight : 0; }
+double usable(double weight) {
+    return std::isfinite(weight) && weight > 0 ? weight : 0;
+}
 
 }  // namespace
 
@@ -26,8 +28,8 @@ void appendCumulative(std::span<const double> weights, std::vector<float>& table
     if (flat) {
         total = positive = double(weights.size());
     }
-    // Each positive cell has one step of its own; the others are dealt out by rounding the running sum, so that no error
-    // accumulates and a cell of weight zero gets none.
+    // Each positive cell has one step of its own; the others are dealt out by rounding the running sum, so that no
+    // error accumulates and a cell of weight zero gets none.
     const double shared = kSteps - positive;
     double sum = 0, own = 0;
     table.reserve(table.size() + weights.size() + 1);
@@ -39,18 +41,22 @@ void appendCumulative(std::span<const double> weights, std::vector<float>& table
         table.push_back(float((own + std::nearbyint(shared * std::fmin(sum / total, 1))) / kSteps));
     }
     // Trailing cells of weight zero share the last value, and it is 1 whatever the rounding of the sum.
-    for (std::size_t i = table.size(); i-- > 0 && table[i] == table.back() && table[i] != 1.f;) table[i] = 1.f;
+    for (std::size_t i = table.size(); i-- > 0 && table[i] == table.back() && table[i] != 1.f;)
+        table[i] = 1.f;
 }
 
-void appendCumulativeGrid(std::span<const float> weights, std::size_t width, std::size_t height, std::vector<float>& table) {
+void appendCumulativeGrid(std::span<const float> weights, std::size_t width, std::size_t height,
+                          std::vector<float>& table) {
     std::vector<double> cells(width), rows(height, 0.0);
     for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x) rows[y] += usable(weights[y * width + x]);
+        for (std::size_t x = 0; x < width; ++x)
+            rows[y] += usable(weights[y * width + x]);
     }
     table.reserve(table.size() + (height + 1) + height * (width + 1));
     appendCumulative(rows, table);
     for (std::size_t y = 0; y < height; ++y) {
-        for (std::size_t x = 0; x < width; ++x) cells[x] = weights[y * width + x];
+        for (std::size_t x = 0; x < width; ++x)
+            cells[x] = weights[y * width + x];
         appendCumulative(cells, table);
     }
 }
