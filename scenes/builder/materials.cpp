@@ -102,7 +102,7 @@ bool isAnisotropic(const MaterialTable& table, MaterialHandle handle) {
     dispatch(MaterialTypes{}, handle.tag, [&]<class M>() {
         if constexpr (std::is_base_of_v<RoughnessInputs, M>) {
             const RoughnessInputs& m = table.rows<M>()[handle.row];
-            const ScalarInput &u = m.uRoughness, &v = m.vRoughness;
+            const ScalarInput &u = m.uAlpha, &v = m.vAlpha;
             result = u.texture != v.texture || (u.texture == kNoTexture && u.constant != v.constant);
         }
     });
