@@ -102,7 +102,7 @@ TEST(AtomicFile, ImpossiblePathsCannotBeCreated) {
     EXPECT_NE(refused(folder.path(std::string(300, 'a'))).find("too long"), std::string::npos);
     EXPECT_NE(refused(folder.path(std::string("a\0b", 3))).find("Invalid"), std::string::npos);
     EXPECT_NE(refused(folder.file("file", "x") + "/a").find("Not a directory"), std::string::npos);
-    EXPECT_NE(refused("/proc/penumbra-test").find("/proc/penumbra-test: "), std::string::npos);
+    EXPECT_EQ(refused("/dev/null/a").find("/dev/null/a: "), 0u);
     writeFileAtomically(folder.path(std::string(255, 'a')), "x");  // the longest name there is
 }
 

@@ -146,6 +146,10 @@ TEST_F(HostileImage, JpegTiffHdrPfmAndTgaBombsAreRefused) {
     ASSERT_NE(frame, std::string::npos);
     jpeg.replace(frame + 5, 4, "\xff\xff\xff\xff");  // height and width of the frame
     EXPECT_FALSE(reads("a.jpg", jpeg));
+    jpeg[frame + 1] = char(0xc2);  // progressive
+    jpeg.replace(frame + 5, 4, "\x40\0\x40\0", 4);
+    EXPECT_FALSE(reads("a.jpg", jpeg));
+    EXPECT_NE(message.find("16384 x 16384"), std::string::npos) << message;
     EXPECT_FALSE(reads("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 60000\n\2\2\xff\xff"));
     EXPECT_FALSE(reads("a.pfm", "PF\n16384 16384\n-1\n1234"));
     EXPECT_FALSE(reads("a.pfm", "PF\n2000000000 2000000000\n-1\n1234"));

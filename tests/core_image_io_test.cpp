@@ -177,8 +177,13 @@ TEST_F(ImageFile, UnknownExtensionsAndPathsAreErrorsAndLeaveNothing) {
     };
     EXPECT_NE(attempt(folder.path("a.bmp"), ErrorKind::Usage).find("known: png"), std::string::npos);
     attempt(folder.path("a"), ErrorKind::Usage);
+    WriteImageOptions odd;
+    odd.bits = 32;
+    messageOf([&] { writeImage(folder.path("a.png"), kWidth, kHeight, rgb, odd); }, ErrorKind::Usage);
+    odd.bits = 12;
+    messageOf([&] { writeImage(folder.path("a.tif"), kWidth, kHeight, rgb, odd); }, ErrorKind::Usage);
     attempt(folder.path("none/a.png"), ErrorKind::CannotCreate);
-    attempt("/proc/a.png", ErrorKind::CannotCreate);
+    attempt("/dev/null/a.png", ErrorKind::CannotCreate);
     EXPECT_EQ(folder.fileCount(), 0u);
 }
 

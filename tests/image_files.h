@@ -22,8 +22,10 @@ struct PngFile {
         std::string header = bigEndian(width) + bigEndian(height);
         header += {char(bits), char(kind), 0, 0, 0};
         std::string raw;
-        for (const auto& row : rows)
-            raw += std::string(1, 0) + std::string(row.begin(), row.end());
+        for (const auto& row : rows) {
+            raw.push_back(0);  // no filter
+            raw.append(row.begin(), row.end());
+        }
         std::string packed(compressBound(raw.size()), 0);
         uLongf size = packed.size();
         compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()),

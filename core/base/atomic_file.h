@@ -3,10 +3,13 @@
 // Bytes go to a hidden temporary file in the same folder (".name.tmp.host.pid.random"); commit() syncs it, renames it
 // over the path and syncs the folder. Until then an older file of that name is untouched; without commit() the
 // temporary file is removed. A symbolic link is followed, so the file that it points to is replaced. A path that is no
-// regular file (a device, a pipe) cannot be renamed over: its bytes are kept in memory and written by commit(). Errors:
-// Error(CannotCreate) where the file cannot be made, Error(CannotWrite) where bytes cannot be written; both name the
-// path and the system's reason. Thread safety: none; one instance belongs to one thread. Two processes that write one
-// path at once leave one whole file.
+// regular file (a device, a pipe) cannot be renamed over: its bytes are kept in memory and written by commit().
+//
+// Errors: Error(CannotCreate) where the file cannot be made, Error(CannotWrite) where bytes cannot be written; both
+// name the path and the system's reason.
+//
+// Thread safety: none; one instance belongs to one thread. Two processes that write one path at once leave one whole
+// file.
 #pragma once
 
 #include <cstddef>

@@ -3,9 +3,11 @@
 // Conventions: XYZ are the CIE 1931 2-degree values; a space's white (1, 1, 1) has Y = 1. The four spaces are those of
 // the pbrt format: srgb, dci-p3 (with the D65 white of P3 displays), rec2020, aces2065-1. Emitted light goes from one
 // space to another through XYZ, without chromatic adaptation: light is light. Reflectances (and coefficients) are
-// ratios, so a neutral one must stay neutral: these are adapted from white to white (Bradford). Thread safety: all
-// immutable; the spaces live as long as the program. Source: IEC 61966-2-1, SMPTE EG 432-1, ITU-R BT.2020, SMPTE ST
-// 2065-1; Bradford: Lam 1985, as in CIE 160.
+// ratios, so a neutral one must stay neutral: these are adapted from white to white (Bradford).
+//
+// Thread safety: all immutable; the spaces live as long as the program.
+//
+// Source: IEC 61966-2-1, SMPTE EG 432-1, ITU-R BT.2020, SMPTE ST 2065-1; Bradford: Lam 1985, as in CIE 160.
 #pragma once
 
 #include "core/color/matrix3.h"

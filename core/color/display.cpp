@@ -127,6 +127,13 @@ std::vector<std::string> spacesOf(const OCIO::Config& config) {
     return names;
 }
 
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
 /// The name in the configuration's spelling, found in any case; the default where none is asked for.
 std::string choose(const char* kind, const std::string& wanted, const char* otherwise,
                    const std::vector<std::string>& known, const std::string& source) {
@@ -136,7 +143,7 @@ std::string choose(const char* kind, const std::string& wanted, const char* othe
     for (const std::string& k : known)
         if (lowerCase(k) == lowerCase(name)) return k;
     throw Error(ErrorKind::Usage, fmt::format("unknown {} {}; those of the OpenColorIO configuration ({}) are: {}",
-                                              kind, quote(name), source, fmt::join(known, ", ")));
+                                              kind, quote(name), source, joined(known)));
 }
 
 /// The space in which pixels enter the configuration, and what takes the film's colours there.
@@ -157,7 +164,7 @@ Entry entryInto(const LoadedConfig& loaded, const std::string& wanted, const Col
         fmt::format(
             "{}: the configuration has neither ACES2065-1 nor a scene_linear role; name the colour space of the "
             "pixels; those of the configuration are: {}",
-            loaded.source, fmt::join(spacesOf(config), ", ")));
+            loaded.source, joined(spacesOf(config))));
 }
 
 /// A view of data shows numbers as they are, so they must not be converted on entry either.

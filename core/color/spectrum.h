@@ -2,9 +2,11 @@
 //
 // Conventions: wavelengths in nm, 360 to 830 inclusive. Sums over wavelengths are plain sums of the 1 nm samples, as
 // the pbrt format defines them: the constant 1 has Y = kYbarSum. Spectra given in a file or as numbers are zero outside
-// their range; built-in tables are held constant beyond their measured ends. Thread safety: all immutable after
-// construction; built-in spectra live as long as the program. Source: CIE 1931 2-degree observer (ISO/CIE 11664-1);
-// illuminants CIE 015; the origin of each table is in data/.
+// their range; built-in tables are held constant beyond their measured ends.
+//
+// Thread safety: all immutable after construction; built-in spectra live as long as the program.
+//
+// Source: CIE 1931 2-degree observer (ISO/CIE 11664-1); illuminants CIE 015; the origin of each table is in data/.
 #pragma once
 
 #include "core/color/color_space.h"

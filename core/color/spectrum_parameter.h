@@ -1,14 +1,17 @@
 // From the ways a scene file gives a spectrum (rgb, blackbody, spectrum) to linear RGB in the film's colour space.
 //
 // What the numbers become depends on the role that the consumer gives them:
-//   Albedo      reflectance, transmittance: values in [0, 1]. rgb outside [0, 1] is an error; a spectrum whose colour
-//   lies
-//               outside is clamped.
-//   Unbounded   eta, k, sigma_a, sigma_s, mean free paths: values >= 0.
-//   Illuminant  L, I, Le. rgb is the radiance itself; a blackbody or spectrum gives only the colour, at luminance 1.
-// An rgb written under another ColorSpace than the film's is converted (as light, or as a reflectance; see
-// color_space.h). Every failure is an Error that begins with the parameter's file:line:column; a spectrum with negative
-// values warns and counts as zero there. Thread safety: pure functions but for the warnings of the context.
+//
+// - Albedo (reflectance, transmittance): values in [0, 1]. An rgb outside is an error, a spectrum's colour is clamped.
+// - Unbounded (eta, k, sigma_a, sigma_s, mean free paths): values >= 0.
+// - Illuminant (L, I, Le): rgb is the radiance itself; a blackbody or spectrum gives only its colour, at luminance 1.
+//
+// An rgb written under another ColorSpace than the film's is converted, as light or as a reflectance (color_space.h).
+//
+// Errors: every failure is an Error that begins with the parameter's file:line:column. A spectrum with negative values
+// warns and counts as zero there.
+//
+// Thread safety: pure functions but for the warnings of the context.
 #pragma once
 
 #include "core/base/parameters.h"

@@ -42,6 +42,20 @@ std::uint32_t checksum(std::string_view bytes) {
     return ~sum;
 }
 
+/// Whether a marker begins a frame, which has the size of the picture (T.81, table B.1).
+bool isFrame(int code) {
+    return code >= 0xc0 && code <= 0xcf && code != 0xc4 && code != 0xc8 && code != 0xcc;
+}
+
+/// libjpeg keeps the whole of a progressive picture in memory from the start, so its size is checked before.
+void checkJpegFrame(const std::string& path, std::string_view segment, std::uint64_t fileBytes,
+                    const ImageLimits& limits) {
+    constexpr std::size_t kLeast = 10;  // marker, length, precision, height, width, components
+    if (segment.size() < kLeast) failImage(path, "the JPEG is damaged: its frame header is too short");
+    const std::uint32_t height = bigEndian(segment, 5, 2), width = bigEndian(segment, 7, 2);
+    checkImageSize(path, width, height, bigEndian(segment, 9, 1), fileBytes, limits);
+}
+
 /// The end of the entropy-coded data that begins at `at`: the next marker that is no restart and no stuffed 0xff.
 std::size_t endOfScan(std::string_view bytes, std::size_t at) {
     for (; at + 1 < bytes.size(); ++at) {
@@ -89,7 +103,7 @@ std::string pngEssentials(const std::string& path, const ImageLimits& limits) {
     failImage(path, "the PNG is cut short");
 }
 
-std::string jpegEssentials(const std::string& path) {
+std::string jpegEssentials(const std::string& path, const ImageLimits& limits) {
     constexpr int kEnd = 0xd9, kScan = 0xda, kAdobe = 0xee, kFirstApp = 0xe0, kLastApp = 0xef, kComment = 0xfe;
     const std::string whole = readWhole(path);
     const std::string_view bytes = whole;
@@ -106,6 +120,7 @@ std::string jpegEssentials(const std::string& path) {
         const std::size_t next = at + 2 + bigEndian(bytes, at + 2, 2),
                           end = code == kScan ? endOfScan(bytes, next) : next;
         if (next < at + 4 || end > bytes.size()) break;
+        if (isFrame(code)) checkJpegFrame(path, bytes.substr(at, end - at), bytes.size(), limits);
         // Of the application segments JFIF and Adobe's say what the colours are.
         const bool isExtra = (code > kFirstApp && code <= kLastApp && code != kAdobe) || code == kComment;
         if (!isExtra) kept += bytes.substr(at, end - at);

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <exception>
-#include <new>
 #include <optional>
 
 namespace penumbra {
@@ -63,20 +62,6 @@ private:
     AtomicFile& file_;
     std::exception_ptr failure_;
 };
-
-/// Runs `work`; what the library throws becomes an Error of that kind.
-template <class Work>
-auto guarded(const std::string& path, ErrorKind kind, const Work& work) {
-    try {
-        return work();
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        failImage(path, "not enough memory for the image", ErrorKind::OutOfMemory);
-    } catch (const std::exception& e) {
-        failImage(path, e.what(), kind);
-    }
-}
 
 Imf::PixelType pixelType(ExrChannel::Type type) {
     return type == ExrChannel::Type::Uint ? Imf::UINT : Imf::FLOAT;
@@ -222,7 +207,7 @@ std::vector<std::string> pictureChannels(const Imf::ChannelList& channels, const
 
 void writeExr(const std::string& path, const ExrHeader& header, const std::function<void(const ExrBlock&)>& fill) {
     AtomicFile file(path);
-    guarded(path, ErrorKind::CannotWrite, [&] {
+    guardImage(path, ErrorKind::CannotWrite, [&] {
         AtomicStream stream(file, path);
         {
             Imf::OutputFile out(stream, libraryHeader(header), kNoThreads);
@@ -240,7 +225,7 @@ const std::vector<float>* ExrFile::find(std::string_view channel) const {
 }
 
 ExrFile readExr(const std::string& path, const ImageLimits& limits) {
-    return guarded(path, ErrorKind::BadData, [&] {
+    return guardImage(path, ErrorKind::BadData, [&] {
         Imf::InputFile in = openExr(path, limits);
         const Imf::Header& header = in.header();
         refuseSubsampled(path, header.channels());
@@ -271,7 +256,7 @@ ExrFile readExr(const std::string& path, const ImageLimits& limits) {
 }
 
 Image readExrImage(const std::string& path, const ImageLimits& limits) {
-    return guarded(path, ErrorKind::BadData, [&] {
+    return guardImage(path, ErrorKind::BadData, [&] {
         Imf::InputFile in = openExr(path, limits);
         const Imf::Header& header = in.header();
         refuseSubsampled(path, header.channels());

@@ -9,7 +9,7 @@
 namespace penumbra {
 namespace {
 
-constexpr std::uint32_t kTiledFlag = 0x200, kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
+constexpr std::uint32_t kDeepFlag = 0x800, kMultiPartFlag = 0x1000;
 
 /// Little-endian values from bytes in memory; a read beyond the end fails as a damaged header.
 class Cursor {

@@ -4,6 +4,7 @@
 #include "core/base/error.h"
 
 #include <cstdint>
+#include <new>
 #include <string>
 
 namespace penumbra {
@@ -36,6 +37,20 @@ void checkImageSize(const std::string& path, std::int64_t width, std::int64_t he
 
 /// Throws Error of that kind whose message begins with the path.
 [[noreturn]] void failImage(const std::string& path, const std::string& reason, ErrorKind kind = ErrorKind::BadData);
+
+/// Runs `work`; what a library throws becomes an Error of that kind (OutOfMemory where memory ran out).
+template <class Work>
+auto guardImage(const std::string& path, ErrorKind kind, const Work& work) {
+    try {
+        return work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        failImage(path, "not enough memory for the image", ErrorKind::OutOfMemory);
+    } catch (const std::exception& e) {
+        failImage(path, e.what(), kind);
+    }
+}
 
 /// The extension in lower case without its dot; empty where there is none.
 std::string extensionOf(const std::string& path);

@@ -1,9 +1,10 @@
 // Image: pixels in memory, as a file gave them.
 //
-// Conventions: interleaved, row 0 is the top, channels 1 (grey), 3 (RGB) or 4 (RGB and alpha, not premultiplied where
-// the file's format keeps it so). Eight-bit files stay bytes with the transfer function that decodes them, so that
-// textures stay small; all else is float and already linear. Colours are in the image's own colour space. Thread
-// safety: immutable use is safe from any number of threads.
+// Conventions: interleaved, row 0 is the top, channels 1 (grey), 3 (RGB) or 4 (RGB and alpha; colours multiplied by
+// alpha or not as the file has them). Eight-bit files stay bytes with the transfer function that decodes them, so that
+// textures stay small; all else is float and already linear. Colours are in the image's own colour space.
+//
+// Thread safety: immutable use is safe from any number of threads.
 #pragma once
 
 #include "core/color/color_space.h"

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 namespace penumbra {
 namespace {
@@ -34,10 +33,9 @@ const char* oiioName(ImageFormat format) {
     return "";
 }
 
-/// OpenImageIO's global settings that concern us: no threads of its own, and an error counts even where nobody asks for
-/// it.
+/// OpenImageIO works in the caller's thread.
 void configureLibrary() {
-    static const bool once = [] { return OIIO::attribute("threads", 1) && OIIO::attribute("log_times", 0); }();
+    static const bool once = OIIO::attribute("threads", 1);
     (void)once;
 }
 
@@ -57,7 +55,7 @@ class Input {
 public:
     Input(const std::string& path, ImageFormat format, const ImageLimits& limits) : path_(path) {
         if (format == ImageFormat::Png) bytes_ = pngEssentials(path, limits);
-        if (format == ImageFormat::Jpeg) bytes_ = jpegEssentials(path);
+        if (format == ImageFormat::Jpeg) bytes_ = jpegEssentials(path, limits);
         // By format, never by path: open(path) would try other readers, whatever we have found the file to be.
         in_ = OIIO::ImageInput::create(oiioName(format));
         if (!in_) refuse(path, OIIO::geterror());
@@ -101,7 +99,7 @@ Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const 
     if (spec.nchannels < 1 || spec.depth > 1 || spec.deep) refuse(path, "not a flat picture");
 
     const int channels = keptChannels(file.format, spec.nchannels);
-    const bool isByte = spec.format == OIIO::TypeUInt8 || spec.format == OIIO::TypeInt8;
+    const bool isByte = spec.format == OIIO::TypeUInt8;
     const std::uint64_t fileBytes = spec.format.size() * spec.nchannels;
     checkImageSize(path, spec.width, spec.height,
                    std::max<std::uint64_t>(fileBytes, isByte ? 1 : channels * sizeof(float)), file.bytes,
@@ -177,18 +175,12 @@ Encoder encoderFor(const std::string& extension, const WriteImageOptions& option
 }  // namespace
 
 Image readImage(const std::string& path, const ReadImageOptions& options) {
-    const ImageFileInfo file = identifyImageFile(path);
-    if (file.format == ImageFormat::Exr) return readExrImage(path, options.limits);
-    try {
+    return guardImage(path, ErrorKind::BadData, [&] {
+        const ImageFileInfo file = identifyImageFile(path);
+        if (file.format == ImageFormat::Exr) return readExrImage(path, options.limits);
         if (file.format == ImageFormat::Pfm) return readPfm(path, file.bytes, options.limits);
         return readWithLibrary(path, file, options);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        failImage(path, "not enough memory for the image", ErrorKind::OutOfMemory);
-    } catch (const std::exception& e) {
-        refuse(path, e.what());
-    }
+    });
 }
 
 void writeImage(const std::string& path, int width, int height, std::span<const float> rgb,
@@ -200,6 +192,8 @@ void writeImage(const std::string& path, int width, int height, std::span<const 
                   fmt::format("cannot write images of extension {}; known: png, jpg, jpeg, hdr, pfm, tif, tiff",
                               quote(extension)),
                   ErrorKind::Usage);
+    if (encoder.bits != 8 && encoder.bits != 16 && (encoder.bits != 32 || extension == "png"))
+        failImage(path, fmt::format("cannot write {} bits to a {} file", encoder.bits, extension), ErrorKind::Usage);
     AtomicFile file(path);  // first, so that a path that cannot be written is known before the work
     if (extension == "pfm") {
         file.write(encodePfm(width, height, rgb));
@@ -210,7 +204,8 @@ void writeImage(const std::string& path, int width, int height, std::span<const 
                                           : "zip");
         spec.attribute("jpeg:subsampling", "4:4:4");
         spec.attribute("DateTime", "    :  :     :  :  ");  // Exif's "unknown", or TIFF would get the clock's
-        const std::vector<unsigned char> bytes = encodeImage(path, encoder, spec, rgb);
+        const std::vector<unsigned char> bytes =
+            guardImage(path, ErrorKind::CannotWrite, [&] { return encodeImage(path, encoder, spec, rgb); });
         file.write(bytes.data(), bytes.size());
     }
     file.commit();

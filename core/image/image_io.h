@@ -3,10 +3,13 @@
 // Reading: a file is what its first bytes say (EXR, PNG, JPEG, HDR, TIFF, PFM), never what its name says; TGA, which
 // has no magic, by its extension and a valid header. All else is refused. Sizes are checked before memory is allocated,
 // also against what a file of its size could hold at all.
+//
 // Writing: every file appears whole or not at all (core/base/atomic_file.h); the same input gives the same bytes.
+//
 // Errors: Error(MissingInput, BadData, CannotCreate, CannotWrite), the message beginning with the path; the exceptions
-// of the libraries end here, and they neither print nor start threads. Thread safety: all functions may be called from
-// several threads at once.
+// of the libraries end here, and they neither print nor start threads.
+//
+// Thread safety: all functions may be called from several threads at once.
 #pragma once
 
 #include "core/image/exr.h"
