@@ -24,7 +24,10 @@ constexpr SamplerStandIn kSamplerStandIns[] = {
     {"pmj02bn", "sobol", false, false},
 };
 
+/// Null for samplers that are there.
 const SamplerStandIn* findStandIn(const std::string& name) {
+    const std::vector<std::string> ours = pluginNames(SamplerTypes{});
+    if (std::find(ours.begin(), ours.end(), name) != ours.end()) return nullptr;
     const auto found =
         std::find_if(std::begin(kSamplerStandIns), std::end(kSamplerStandIns), [&](const SamplerStandIn& s) { return name == s.name; });
     return found == std::end(kSamplerStandIns) ? nullptr : found;
@@ -32,7 +35,8 @@ const SamplerStandIn* findStandIn(const std::string& name) {
 
 std::vector<std::string> samplerNames() {
     std::vector<std::string> names = pluginNames(SamplerTypes{});
-    for (const SamplerStandIn& s : kSamplerStandIns) names.emplace_back(s.name);
+    for (const SamplerStandIn& s : kSamplerStandIns)
+        if (findStandIn(s.name)) names.emplace_back(s.name);
     return names;
 }
 
