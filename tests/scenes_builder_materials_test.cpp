@@ -61,7 +61,7 @@ TEST(MaterialLibrary, StandInsWarnOnceAndTakeWhatTheyKnow) {
                                                   "Material \"coatedconductor\" Shape \"disk\"");
     const auto& metals = coated.scene.materials.rows<ConductorMaterial>();
     ASSERT_EQ(metals.size(), 2u);
-    EXPECT_EQ(metals[0].uRoughness.constant, 0.25f);
+    EXPECT_EQ(metals[0].uAlpha.constant, 0.5f);
     EXPECT_EQ(metals[0].reflectance.constant.b, 0.6f);
     ASSERT_EQ(coated.warnings.all().size(), 1u);
     EXPECT_EQ(coated.warnings.all()[0], "test.pbrt:3:1: the material 'coatedconductor' is not there yet; 'conductor' stands in for it");
@@ -169,7 +169,7 @@ TEST(TextureLibrary, ClassesThatAreNotThereYetWarnOnce) {
                                           "Texture \"n\" \"float\" \"fbm\"\nTexture \"n2\" \"float\" \"fbm\"\n"
                                           "Material \"coateddiffuse\" \"texture reflectance\" \"m\" \"texture uroughness\" \"n\" \"texture vroughness\" \"n2\"");
     EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).reflectance.constant.g, 0.2f);
-    EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).uRoughness.constant, 0.5f);
+    EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).uAlpha.constant, std::sqrt(0.5f));
     EXPECT_EQ(built.warnings.all().size(), 2u);
     EXPECT_TRUE(built.warnsOf("test.pbrt:3:1: the texture class 'mix' is not there yet"));
 }
