@@ -71,9 +71,10 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
     const Vec3<F> p0 = loadVertex<F>(g.positions, i0), p1 = loadVertex<F>(g.positions, i1), p2 = loadVertex<F>(g.positions, i2);
     const F b1 = hit.u, b2 = hit.v, b0 = (F(1.f) - b1) - b2;
     s.p = p0 * b0 + p1 * b1 + p2 * b2;
-    // The plane that Embree intersected is known to a few roundings of the corners' coordinates.
-    const auto largest = [](F x, F y, F z) { return max(abs(x), max(abs(y), abs(z))) * F(12 * 0x1p-24f); };
-    s.error = {largest(p0.x, p1.x, p2.x), largest(p0.y, p1.y, p2.y), largest(p0.z, p1.z, p2.z)};
+    // The plane that Embree intersected is known to a few roundings of the corners' coordinates. One bound for all axes: a
+    // plane through the origin has coordinates of exactly 0 across it, and still a ray must not start in it.
+    const F largest = max(maxComponent(abs(p0)), max(maxComponent(abs(p1)), maxComponent(abs(p2)))) * F(12 * 0x1p-24f);
+    s.error = {largest, largest, largest};
     const Vec3<F> e1 = p1 - p0, e2 = p2 - p0;
     const UInt<F> flags = shape(&ShapeRecord::flags);
     const Mask<F> flip = (flags & UInt<F>(kShapeFlipNormal)) != UInt<F>(0u);
