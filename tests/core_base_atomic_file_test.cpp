@@ -2,7 +2,7 @@
 
 #include "core/base/atomic_file.h"
 
-#include "core/base/error.h"
+#include "tests/expect_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -12,21 +12,9 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <functional>
 
 namespace penumbra {
 namespace {
-
-std::string messageOf(const std::function<void()>& work, ErrorKind kind) {
-    try {
-        work();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), kind) << e.what();
-        return e.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
-}
 
 /// Writes the path in a child process that is not root, which may write everywhere. Returns the kind of its error, 0
 /// for none.

@@ -2,14 +2,13 @@
 
 #include "core/color/display.h"
 
-#include "core/base/error.h"
 #include "core/color/transfer.h"
+#include "tests/expect_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -36,17 +35,6 @@ std::vector<float> throughView(const std::string& view, std::vector<float> rgb,
     options.exposure = exposure;
     DisplayTransform(options, film).apply(rgb);
     return rgb;
-}
-
-std::string messageOf(const std::function<void()>& work, ErrorKind kind) {
-    try {
-        work();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), kind) << e.what();
-        return e.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
 }
 
 class Display : public testing::Test {

@@ -3,6 +3,7 @@
 #include "core/color/conductor_fit.h"
 #include "core/color/sensor.h"
 #include "core/color/spectrum_parameter.h"
+#include "tests/expect_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -37,15 +38,9 @@ protected:
         return readSpectrumParameter(p, role, context, "material 'wall'");
     }
     std::string refused(const std::function<void()>& work, ErrorKind kind = ErrorKind::BadData) {
-        try {
-            work();
-        } catch (const Error& e) {
-            EXPECT_EQ(e.kind(), kind) << e.what();
-            EXPECT_EQ(std::string(e.what()).find("scene.pbrt:7:3: "), 0u) << e.what();
-            return e.what();
-        }
-        ADD_FAILURE() << "no error";
-        return {};
+        const std::string message = messageOf(work, kind);
+        EXPECT_EQ(message.find("scene.pbrt:7:3: "), 0u) << message;
+        return message;
     }
     std::string refused(const Parameter& p, SpectrumRole role, ErrorKind kind = ErrorKind::BadData) {
         return refused([&] { read(p, role); }, kind);

@@ -2,12 +2,11 @@
 
 #include "core/color/spectrum.h"
 
-#include "core/base/error.h"
+#include "tests/expect_error.h"
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <limits>
 #include <vector>
 
@@ -24,17 +23,6 @@ SampledSpectrum builtin(const std::string& name) {
     const SampledSpectrum* found = findBuiltinSpectrum(name);
     if (!found) throw Error(ErrorKind::Internal, "no spectrum " + name);
     return *found;
-}
-
-std::string messageOf(const std::function<void()>& work, ErrorKind kind = ErrorKind::BadData) {
-    try {
-        work();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), kind) << e.what();
-        return e.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
 }
 
 struct BlackbodyCase {

@@ -2,7 +2,7 @@
 
 #include "core/image/image_io.h"
 
-#include "core/base/error.h"
+#include "tests/expect_error.h"
 #include "tests/image_files.h"
 #include "tests/temporary_folder.h"
 
@@ -11,7 +11,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 
 namespace penumbra {
@@ -27,17 +26,6 @@ std::vector<float> picture(float scale = 1) {
             for (const float v : {float(x) / kWidth, float(y) / kHeight, float(x + y) / (kWidth + kHeight)})
                 rgb.push_back(scale * v);
     return rgb;
-}
-
-std::string messageOf(const std::function<void()>& work, ErrorKind kind) {
-    try {
-        work();
-    } catch (const Error& e) {
-        EXPECT_EQ(e.kind(), kind) << e.what();
-        return e.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
 }
 
 /// Whether "2001:02:03", as TIFF and Exif write dates, stands somewhere.

@@ -252,4 +252,6 @@ std::vector<DisplayList> listDisplays(const std::string& path) {
     return list;
 }
 
+std::string displayLibraryVersion() { return std::string("OpenColorIO ") + OCIO::GetVersion(); }
+
 }  // namespace penumbra

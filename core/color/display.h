@@ -54,4 +54,7 @@ struct DisplayList {
 /// What a configuration offers; empty path as in DisplayOptions.
 std::vector<DisplayList> listDisplays(const std::string& config);
 
+/// "OpenColorIO 2.1.2", as the library says at run time.
+std::string displayLibraryVersion();
+
 }  // namespace penumbra

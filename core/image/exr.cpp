@@ -278,4 +278,6 @@ Image readExrImage(const std::string& path, const ImageLimits& limits) {
     });
 }
 
+std::string exrLibraryVersion() { return std::string("OpenEXR ") + OPENEXR_VERSION_STRING; }
+
 }  // namespace penumbra

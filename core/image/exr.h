@@ -62,4 +62,7 @@ ExrFile readExr(const std::string& path, const ImageLimits& limits = {});
 /// channel.
 Image readExrImage(const std::string& path, const ImageLimits& limits = {});
 
+/// "OpenEXR 3.1.5", as compiled against.
+std::string exrLibraryVersion();
+
 }  // namespace penumbra

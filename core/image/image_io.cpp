@@ -217,4 +217,9 @@ ImageFileKind imageFileKind(const std::string& path, const WriteImageOptions& op
     return encoder.bits == 32 ? ImageFileKind::Linear : ImageFileKind::DisplayEncoded;
 }
 
+std::string imageLibraryVersion() {
+    const int version = OIIO::openimageio_version();
+    return fmt::format("OpenImageIO {}.{}.{}", version / 10000, version / 100 % 100, version % 100);
+}
+
 }  // namespace penumbra

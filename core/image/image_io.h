@@ -43,4 +43,7 @@ void writeImage(const std::string& path, int width, int height, std::span<const 
 enum class ImageFileKind { Unknown, DisplayEncoded, Linear };
 ImageFileKind imageFileKind(const std::string& path, const WriteImageOptions& options = {});
 
+/// "OpenImageIO 2.4.7", as the library says at run time.
+std::string imageLibraryVersion();
+
 }  // namespace penumbra
