@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -50,15 +51,18 @@ public:
             parameters_.add(std::move(p));
         }
     }
+    /// The parameter `name` comes from this texture instead.
+    void useTexture(std::string_view name, std::uint32_t texture) { textures_[std::string(name)] = texture; }
+
     SpectrumInput albedo(std::string_view name, Rgb otherwise) override {
         const Rgb c = clamp(rgb(name, otherwise), 0.f, 1.f);
-        return {{c.r, c.g, c.b}, kNoTexture};
+        return {{c.r, c.g, c.b}, textureOf(name, kNoTexture)};
     }
     ScalarInput scalar(std::string_view name, float otherwise) override {
-        return {parameters_.number(name, otherwise), kNoTexture};
+        return {parameters_.number(name, otherwise), textureOf(name, kNoTexture)};
     }
     ScalarInput scalar(std::string_view name, const ScalarInput& otherwise) override {
-        return {parameters_.number(name, otherwise.constant), kNoTexture};
+        return {parameters_.number(name, otherwise.constant), textureOf(name, otherwise.texture)};
     }
     float dielectricIndex(std::string_view name, float otherwise) override {
         return parameters_.number(name, otherwise);
@@ -78,8 +82,14 @@ private:
         const std::vector<float>& v = parameters_.numbers("rgb", name);
         return v.empty() ? otherwise : Rgb{v[0], v[1], v[2]};
     }
+    std::uint32_t textureOf(std::string_view name, std::uint32_t otherwise) const {
+        const auto found = textures_.find(name);
+        return found == textures_.end() ? otherwise : found->second;
+    }
+
     ParameterSet parameters_;
     MaterialTables& tables_;
+    std::map<std::string, std::uint32_t, std::less<>> textures_;
 };
 
 inline Setting number(std::string name, float x) {
