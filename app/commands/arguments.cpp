@@ -55,14 +55,18 @@ std::string optionName(const CLI::Option& option) {
 }
 
 std::string optionRows(const CLI::App& app) {
-    std::string text, heading;
+    std::string words, options, heading;
     for (const CLI::Option* option : app.get_options()) {
-        const std::string group = option->get_positional() ? "" : option->get_group();
-        if (group != heading) text += "\n" + group + ":\n";
-        heading = group;
-        text += helpRow(optionName(*option), option->get_description());
+        const std::string row = helpRow(optionName(*option), option->get_description());
+        if (option->get_positional()) {
+            words += row;
+            continue;
+        }
+        if (option->get_group() != heading) options += "\n" + option->get_group() + ":\n";
+        heading = option->get_group();
+        options += row;
     }
-    return text;
+    return (words.empty() ? "" : "\n" + words) + options;
 }
 
 std::string commandRows(const CLI::App& program) {
@@ -107,6 +111,8 @@ void rejectFirst(const CLI::App& app, const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+void Arguments::help() { app_.set_help_flag("-h,--help", "print this help")->group(group_); }
 
 void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
     app_.add_option(name, value, help)->take_last();

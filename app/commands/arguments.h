@@ -34,6 +34,8 @@ public:
 
     /// The heading of the options that follow in the help.
     void group(const std::string& heading) { group_ = heading; }
+    /// -h, --help, in the group that is being declared.
+    void help();
     void positional(const std::string& name, std::string& value, const std::string& help);
     void positionals(const std::string& name, std::vector<std::string>& values, const std::string& help);
     void flag(const std::string& names, bool& value, const std::string& help);

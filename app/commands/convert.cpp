@@ -159,6 +159,7 @@ Command addConvertCommand(CLI::App& program) {
     arguments.whole("--bits", "N", {8, 32}, r.write.bits, "of PNG and TIFF: 8 or 16; of TIFF also 32, linear floats (default: 8)");
     arguments.whole("--quality", "N", {1, 100}, r.write.jpegQuality, "of JPEG, 1 to 100 (default: 95)");
     arguments.flag("--quiet", r.quiet, "say nothing but warnings and errors");
+    arguments.help();
     return {&command, [request] { runConvert(*request); }};
 }
 

@@ -112,7 +112,7 @@ std::string asText(const Json& j) {
     line("lights", countList(j["lights"]));
     line("textures", fmt::format("{} from {} images, {}", j["textures"]["count"].get<std::size_t>(), j["textures"]["images"].get<std::size_t>(),
                                  bytesText(number(j["textures"]["bytes"]))));
-    line("built in", fmt::format("{:.3f} s, of which {:.3f} s for the acceleration structure", number(j["seconds"]["build"]),
+    line("built in", fmt::format("{:.3f} s, and {:.3f} s for the acceleration structure", number(j["seconds"]["build"]),
                                  number(j["seconds"]["acceleration"])));
     line("warnings", std::to_string(j["warnings"].size()));
     return text;
@@ -142,6 +142,7 @@ Command addInfoCommand(CLI::App& program) {
     arguments.flag("--strict", request->strict, "warnings are errors");
     arguments.whole("-t,--nthreads", "N", {1, kMostThreads}, request->threads,
                     "threads (default: $SLURM_CPUS_PER_TASK, $CUE_THREADS, else every processor)");
+    arguments.help();
     return {&command, [request] { runInfo(*request); }};
 }
 

@@ -106,6 +106,7 @@ Command addListCommand(CLI::App& program) {
     arguments.positional("NAME", request->name, "one of them, with its parameters and their defaults");
     arguments.flag("--verbose", request->verbose, "parameters and their defaults of all");
     arguments.flag("--json", request->json, "everything as JSON");
+    arguments.help();
     return {&command, [request] { runList(*request); }};
 }
 

@@ -30,7 +30,9 @@ void runProgram(int argc, char** argv) {
     CLI::App program(kDescription, "penumbra");
     program.footer(kFooter);
     bool version = false;
-    Arguments(program).flag("--version", version, "print the versions of the program and of its libraries");
+    Arguments arguments(program);
+    arguments.flag("--version", version, "print the versions of the program and of its libraries");
+    arguments.help();
     const Command commands[] = {addRenderCommand(program), addInfoCommand(program), addListCommand(program), addConvertCommand(program)};
     program.allow_extras();
     for (const Command& command : commands) command.parser->allow_extras();

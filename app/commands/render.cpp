@@ -206,7 +206,7 @@ void addTransport(Arguments& arguments, RenderRequest& r) {
     addEnum<RouletteRule>(arguments, "--roulette", {{"late", RouletteRule::Late}, {"pbrt", RouletteRule::Pbrt}, {"off", RouletteRule::Off}},
                           b.roulette, "when faint paths may end early (default: late)");
     addEnum<Strategy>(arguments, "--strategy", {{"mis", Strategy::Mis}, {"bsdf", Strategy::BsdfOnly}, {"light", Strategy::LightOnly}},
-                      b.strategy, "how light is looked for: by both ways combined, by scattered rays alone, by light samples alone (default: mis)");
+                      b.strategy, "how light is looked for: both ways combined, scattered rays alone, light samples alone (default: mis)");
     addEnum<LightSelection>(arguments, "--light-selection", {{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}},
                             b.lightSelection, "which light is sampled next (default: power)");
     addEnum<bool>(arguments, "--light-sampling", {{"solid-angle", false}, {"area", true}}, b.classicArea,
@@ -224,6 +224,7 @@ void addRunning(Arguments& arguments, RenderRequest& r) {
     arguments.text("--pixel", "X,Y", "with --sample: replay one sample instead of rendering, and print its R G B",
                    [&r](const std::string& t) { r.pixel = Arguments::parsePair("--pixel", t, ',', kPixelNumbers); });
     arguments.whole("--sample", "I", {0, kMostSamples - 1}, r.sample, "the sample of the pixel to replay, counted from 0");
+    arguments.help();
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "app/commands/version.h"
 
+#include "core/base/byte_reader.h"
+#include "core/base/parallel.h"
 #include "core/base/sha256.h"
 #include "core/base/version.h"
+#include "core/color/display.h"
 #include "core/geometry/accelerator.h"
+#include "core/image/image_io.h"
 
 #include <CLI/Version.hpp>
 #include <fmt/format.h>
@@ -17,7 +21,8 @@ std::string versionText() {
                                          NLOHMANN_JSON_VERSION_PATCH);
     const std::string format = fmt::format("fmt {}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100);
     for (const std::string& library :
-         {Accelerator::libraryVersion(), Sha256::libraryVersion(), std::string("CLI11 ") + CLI11_VERSION, format, json})
+         {Accelerator::libraryVersion(), parallelLibraryVersion(), imageLibraryVersion(), exrLibraryVersion(), displayLibraryVersion(),
+          Sha256::libraryVersion(), ByteReader::libraryVersion(), std::string("CLI11 ") + CLI11_VERSION, format, json})
         text += library + "\n";
     return text;
 }

@@ -181,4 +181,8 @@ bool ByteReader::skip(std::uint64_t n) {
     return true;
 }
 
+std::string ByteReader::libraryVersion() {
+    return std::string("zlib ") + zlibVersion();
+}
+
 }  // namespace penumbra

@@ -50,6 +50,9 @@ public:
     /// header claims can be refused before anything is allocated for it.
     std::uint64_t mostBytesLeft() const;
 
+    /// "zlib 1.2.13", as the library says at run time.
+    static std::string libraryVersion();
+
 private:
     struct Source;
     ByteReader(std::unique_ptr<Source> source, std::string name);

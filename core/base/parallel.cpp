@@ -4,6 +4,7 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/version.h>
 
 #ifdef PENUMBRA_TSAN
 #include <sanitizer/tsan_interface.h>
@@ -22,6 +23,8 @@ ThreadLimit::~ThreadLimit() = default;
 
 int ThreadLimit::available() { return tbb::info::default_concurrency(); }
 int ThreadLimit::current() { return int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)); }
+
+std::string parallelLibraryVersion() { return std::string("oneTBB ") + TBB_runtime_version(); }
 
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& task) {
     // TBB itself is not instrumented: under the thread sanitizer the loop's start and end are declared by hand, and what

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace penumbra {
 
@@ -24,6 +25,9 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// "oneTBB 2021.8.0", as the library says at run time.
+std::string parallelLibraryVersion();
 
 /// Calls task(i) for every i in [0, count), each once, in any order and on any thread. Tasks are handed out one by one, so
 /// make them big. The tasks must not throw.
