@@ -52,59 +52,59 @@ TYPED_TEST_SUITE(MaterialProperties, TestTypes<MaterialTypes>::type, MaterialNam
 
 /// Counts of sampled directions in cells of theta and phi against the integral of pdf over each; delta lobes are cells
 /// of their own (expected: the probability they report), and so is what is absorbed.
+template <class Bsdf>
 class SamplingTest {
 public:
-    static constexpr int kThetas = 24, kPhis = 32;  // over the whole sphere
-
-    template <class Bsdf>
-    static double pValue(const Bsdf& bsdf, const Vec3<float>& wo, std::uint32_t samples, std::uint32_t seed) {
-        SamplingTest test;
-        test.count(bsdf, wo, samples, seed);
-        test.expect(bsdf, wo, samples);
-        return chiSquareTest(test.observed_, test.expected_, 10).pValue;
-    }
-
-private:
-    static constexpr std::size_t kCells = std::size_t(kThetas) * kPhis, kReflectedDelta = kCells,
-                                 kRefractedDelta = kCells + 1, kAbsorbed = kCells + 2;
-
-    template <class Bsdf>
-    void count(const Bsdf& bsdf, const Vec3<float>& wo, std::uint32_t samples, std::uint32_t seed) {
-        const Uniforms u{seed};
-        for (std::uint32_t group = 0; group < samples / 8; ++group) {
-            const BsdfSample<F> s = bsdf.sample(broadcast<F>(wo), u(group, 0), {u(group, 1), u(group, 2)});
-            for (int k = 0; k < 8; ++k) {
-                const Vec3<float> wi = lane(s.wi, k);
-                if (!lane(s.valid, k)) {
-                    ++observed_[kAbsorbed];
-                } else if (lane(s.delta, k)) {
-                    const std::size_t cell = wi.z * wo.z > 0 ? kReflectedDelta : kRefractedDelta;
-                    ++observed_[cell];
-                    deltaProbability_[cell - kCells] = lane(s.pdf, k);
-                } else {
-                    ++observed_[cellOf(wi)];
-                }
-            }
-        }
-    }
-    template <class Bsdf>
-    void expect(const Bsdf& bsdf, const Vec3<float>& wo, std::uint32_t samples) {
+    SamplingTest(const Bsdf& bsdf, const Vec3<float>& wo) : bsdf_(bsdf), wo_(wo) {
         const SphereIntegrator<Bsdf> integrator(bsdf, wo);
-        double rest = 1 - deltaProbability_[0] - deltaProbability_[1];
         for (int i = 0; i < kThetas; ++i) {
             const double z1 = std::cos(kPiD * i / kThetas), z0 = std::cos(kPiD * (i + 1) / kThetas);
             for (int j = 0; j < kPhis; ++j) {
-                const double p = integrator.cell(z0, z1, 2 * kPiD * j / kPhis, 2 * kPiD * (j + 1) / kPhis)[0];
-                expected_[std::size_t(i) * kPhis + j] = p * samples;
-                rest -= p;
+                const double phi0 = 2 * kPiD * j / kPhis, phi1 = 2 * kPiD * (j + 1) / kPhis;
+                probability_[std::size_t(i) * kPhis + j] = integrator.cell(z0, z1, phi0, phi1)[0];
             }
         }
-        expected_[kReflectedDelta] = deltaProbability_[0] * samples;
-        expected_[kRefractedDelta] = deltaProbability_[1] * samples;
+    }
+
+    double pValue(std::uint32_t samples, std::uint32_t seed) const {
+        std::vector<double> observed(kCells + 3), expected = probability_;
+        count(samples, seed, observed, expected);
+        double rest = 1;
+        for (double& e : expected) {
+            rest -= e;
+            e *= samples;
+        }
         EXPECT_GT(rest, -2e-4) << "the density integrates to more than one";
-        expected_[kAbsorbed] = std::max(rest, 0.0) * samples;
+        expected[kAbsorbed] = std::max(rest, 0.0) * samples;
         // Nothing expected is what rounding leaves of it: then a handful is no evidence.
-        if (rest < 1e-5 && observed_[kAbsorbed] <= 1e-5 * samples) expected_[kAbsorbed] = observed_[kAbsorbed];
+        if (rest < 1e-5 && observed[kAbsorbed] <= 1e-5 * samples) expected[kAbsorbed] = observed[kAbsorbed];
+        return chiSquareTest(observed, expected, 10).pValue;
+    }
+
+private:
+    static constexpr int kThetas = 24, kPhis = 32;  // over the whole sphere
+    static constexpr std::size_t kCells = std::size_t(kThetas) * kPhis, kReflectedDelta = kCells,
+                                 kRefractedDelta = kCells + 1, kAbsorbed = kCells + 2;
+
+    /// Tallies the samples; the probabilities of the delta lobes are those that their samples report.
+    void count(std::uint32_t samples, std::uint32_t seed, std::vector<double>& observed,
+               std::vector<double>& expected) const {
+        const Uniforms u{seed};
+        for (std::uint32_t group = 0; group < samples / 8; ++group) {
+            const BsdfSample<F> s = bsdf_.sample(broadcast<F>(wo_), u(group, 0), {u(group, 1), u(group, 2)});
+            for (int k = 0; k < 8; ++k) {
+                const Vec3<float> wi = lane(s.wi, k);
+                if (!lane(s.valid, k)) {
+                    ++observed[kAbsorbed];
+                } else if (lane(s.delta, k)) {
+                    const std::size_t cell = wi.z * wo_.z > 0 ? kReflectedDelta : kRefractedDelta;
+                    ++observed[cell];
+                    expected[cell] = lane(s.pdf, k);
+                } else {
+                    ++observed[cellOf(wi)];
+                }
+            }
+        }
     }
     static std::size_t cellOf(const Vec3<float>& wi) {
         const double theta = std::acos(std::clamp(double(wi.z), -1.0, 1.0));
@@ -115,8 +115,9 @@ private:
         return std::size_t(i) * kPhis + j;
     }
 
-    std::vector<double> observed_ = std::vector<double>(kCells + 3), expected_ = std::vector<double>(kCells + 3);
-    double deltaProbability_[2] = {0, 0};
+    const Bsdf& bsdf_;
+    Vec3<float> wo_;
+    std::vector<double> probability_ = std::vector<double>(kCells + 3);
 };
 
 std::size_t sizeOfFamily() {
@@ -132,7 +133,7 @@ TYPED_TEST(MaterialProperties, SamplesFollowTheirDensity) {
     std::uint32_t seed = 1;
     this->forEachMaterial([&](const auto& bsdf, const std::string& name) {
         for (const Vec3<float>& wo : viewDirections()) {
-            const double p = SamplingTest::pValue(bsdf, wo, 1u << 17, ++seed);
+            const double p = SamplingTest(bsdf, wo).pValue(1u << 17, ++seed);
             EXPECT_GT(p, level) << name << ", wo.z = " << wo.z;
         }
     });
@@ -147,8 +148,8 @@ struct SkewedDiffuse : DiffuseBsdf<F> {
 TEST(MaterialSampling, SeesADensityThatIsSlightlyWrong) {
     const DiffuseBsdf<F> right{Spectrum<F>::constant(F(0.5f))};
     const SkewedDiffuse wrong{right};
-    EXPECT_LT(SamplingTest::pValue(wrong, directionOf(0.8, 0.7), 1u << 17, 5), 1e-6);
-    EXPECT_GT(SamplingTest::pValue(right, directionOf(0.8, 0.7), 1u << 17, 5), 1e-3);
+    EXPECT_LT(SamplingTest(wrong, directionOf(0.8, 0.7)).pValue(1u << 17, 5), 1e-6);
+    EXPECT_GT(SamplingTest(right, directionOf(0.8, 0.7)).pValue(1u << 17, 5), 1e-3);
 }
 
 /// A million samples, twenty seeds: the bar the project holds itself to. The family has a false-alarm rate of 1e-3.
@@ -160,9 +161,9 @@ TEST(LongMaterialSampling, SamplesFollowTheirDensity) {
         for (std::size_t i = 0; i < materials.settings.size(); ++i) {
             const auto bsdf = materials.wide(i);
             for (const Vec3<float>& wo : viewDirections()) {
+                const SamplingTest test(bsdf, wo);
                 for (std::uint32_t seed = 0; seed < kSeeds; ++seed)
-                    EXPECT_GT(SamplingTest::pValue(bsdf, wo, 1u << 20, 1000 + seed), level)
-                        << materials.name(i) << ", wo.z = " << wo.z;
+                    EXPECT_GT(test.pValue(1u << 20, 1000 + seed), level) << materials.name(i) << ", wo.z = " << wo.z;
             }
         }
     });
