@@ -11,9 +11,12 @@ namespace {
 using namespace builder;
 
 using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
-void buildSettings(const SceneDescription& description, const BuildOptions& options, BuildContext& context, Scene& scene) {
+void buildSettings(const SceneDescription& description, const BuildOptions& options, BuildContext& context,
+                   Scene& scene) {
     const Shutter shutter = readShutter(description.camera, context);
     scene.film = readFilm(description.film, shutter, options, context);
     scene.camera = Camera(readCamera(description, shutter, scene.film, options, context));
@@ -56,7 +59,8 @@ void buildLightSelection(const BuildOptions& options, Scene& scene) {
         tables.sceneRadius = length(b.upper - b.lower) * 0.5f;
     }
     tables.classicArea = options.classicArea;
-    // Directions of scattering find a constant infinite light so well that light sampling is left out, unless it is all there is.
+    // Directions of scattering find a constant infinite light so well that light sampling is left out, unless it is all
+    // there is.
     const bool lightsOnly = scene.integrator.strategy == Strategy::LightOnly;
     scene.lightSampler = LightSampler(scene.integrator.lightSelection, scene.lights, lightsOnly);
 }

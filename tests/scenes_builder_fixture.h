@@ -62,7 +62,8 @@ inline std::optional<RayResult> trace(const Scene& scene, Vec3<float> origin, Ve
     r.hit.geometry[0] = r.hit.instance[0] = kNoHit;
     scene.accelerator.intersect(r, 1);
     if (r.hit.geometry[0] == kNoHit) return std::nullopt;
-    const Hit<float> hit{r.hit.geometry[0], r.hit.primitive[0], r.hit.instance[0], r.hit.u[0], r.hit.v[0], r.ray.far[0]};
+    const Hit<float> hit{r.hit.geometry[0], r.hit.primitive[0], r.hit.instance[0],
+                         r.hit.u[0],        r.hit.v[0],         r.ray.far[0]};
     return RayResult{hit.t, surfacePoint(scene.geometry, hit, origin, direction, time)};
 }
 

@@ -9,8 +9,10 @@
 namespace penumbra {
 namespace {
 
-const std::string kRectangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  2 0 0  2 3 0  0 3 0] \"integer indices\" [0 1 2 0 2 3]\n";
-const std::string kTwoTriangles = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  2 0 0  3 3 0  0 3 0] \"integer indices\" [0 1 2 0 2 3]\n";
+const std::string kRectangle =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0  2 0 0  2 3 0  0 3 0] \"integer indices\" [0 1 2 0 2 3]\n";
+const std::string kTwoTriangles =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0  2 0 0  3 3 0  0 3 0] \"integer indices\" [0 1 2 0 2 3]\n";
 const std::string kArea = "AreaLightSource \"diffuse\" \"rgb L\" [1 2 3]\n";
 
 template <class T>
@@ -22,7 +24,9 @@ T onlyLight(const BuiltScene& built) {
 }
 
 /// Whether light 0 is seen by light sampling from a point.
-bool shinesTo(const Scene& scene, Vec3<float> p) { return sampleLight<float>(scene.lights, 0u, p, {0.4f, 0.6f}).valid; }
+bool shinesTo(const Scene& scene, Vec3<float> p) {
+    return sampleLight<float>(scene.lights, 0u, p, {0.4f, 0.6f}).valid;
+}
 
 TEST(AreaLights, TwoTrianglesThatMakeARectangleAreOneLight) {
     const BuiltScene built = buildWorld(kArea + kRectangle);
@@ -64,21 +68,23 @@ TEST_P(AreaLightSide, IsTheSideOfTheNormal) {
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, AreaLightSide,
-    testing::Values(SideCase{"Rectangle", kArea + kRectangle, true, false},
-                    SideCase{"RectangleReversed", kArea + "ReverseOrientation " + kRectangle, false, true},
-                    SideCase{"RectangleMirrored", kArea + "Scale 1 1 -1 " + kRectangle, false, true},
-                    SideCase{"TwoSided", "AreaLightSource \"diffuse\" \"bool twosided\" true " + kRectangle, true, true},
-                    SideCase{"Triangles", kArea + kTwoTriangles, true, false},
-                    SideCase{"TrianglesReversed", kArea + "ReverseOrientation " + kTwoTriangles, false, true},
-                    SideCase{"NormalsWin",
-                             kArea + "Shape \"trianglemesh\" \"point3 P\" [0 0 0 4 0 0 0 4 0] \"normal N\" [0 0 -1 0 0 -1 0 0 -1]", false, true},
-                    SideCase{"Disk", kArea + "Shape \"disk\" \"float radius\" 2", true, false},
-                    SideCase{"DiskReversed", kArea + "ReverseOrientation Shape \"disk\" \"float radius\" 2", false, true},
-                    SideCase{"DiskMirrored", kArea + "Scale -1 1 1 Shape \"disk\" \"float radius\" 2", false, true},
-                    SideCase{"DiskTurned", kArea + "Rotate 180 0 1 0 Shape \"disk\" \"float radius\" 2", false, true},
-                    SideCase{"Sphere", kArea + "Shape \"sphere\" \"float radius\" 2", true, true},
-                    SideCase{"SphereReversed", kArea + "ReverseOrientation Shape \"sphere\" \"float radius\" 2", false, false},
-                    SideCase{"SphereMirrored", kArea + "Scale 1 -1 1 Shape \"sphere\" \"float radius\" 2", false, false}),
+    testing::Values(
+        SideCase{"Rectangle", kArea + kRectangle, true, false},
+        SideCase{"RectangleReversed", kArea + "ReverseOrientation " + kRectangle, false, true},
+        SideCase{"RectangleMirrored", kArea + "Scale 1 1 -1 " + kRectangle, false, true},
+        SideCase{"TwoSided", "AreaLightSource \"diffuse\" \"bool twosided\" true " + kRectangle, true, true},
+        SideCase{"Triangles", kArea + kTwoTriangles, true, false},
+        SideCase{"TrianglesReversed", kArea + "ReverseOrientation " + kTwoTriangles, false, true},
+        SideCase{"NormalsWin",
+                 kArea + "Shape \"trianglemesh\" \"point3 P\" [0 0 0 4 0 0 0 4 0] \"normal N\" [0 0 -1 0 0 -1 0 0 -1]",
+                 false, true},
+        SideCase{"Disk", kArea + "Shape \"disk\" \"float radius\" 2", true, false},
+        SideCase{"DiskReversed", kArea + "ReverseOrientation Shape \"disk\" \"float radius\" 2", false, true},
+        SideCase{"DiskMirrored", kArea + "Scale -1 1 1 Shape \"disk\" \"float radius\" 2", false, true},
+        SideCase{"DiskTurned", kArea + "Rotate 180 0 1 0 Shape \"disk\" \"float radius\" 2", false, true},
+        SideCase{"Sphere", kArea + "Shape \"sphere\" \"float radius\" 2", true, true},
+        SideCase{"SphereReversed", kArea + "ReverseOrientation Shape \"sphere\" \"float radius\" 2", false, false},
+        SideCase{"SphereMirrored", kArea + "Scale 1 -1 1 Shape \"sphere\" \"float radius\" 2", false, false}),
     [](const auto& info) { return info.param.name; });
 
 TEST(AreaLights, PowerIsThatOfEachPrimitive) {
@@ -95,8 +101,10 @@ TEST(AreaLights, PowerIsThatOfEachPrimitive) {
     EXPECT_FLOAT_EQ(radiance("\"float power\" 12 \"rgb L\" [5 5 5]", kRectangle), 60 / (pi * 3));
     EXPECT_FLOAT_EQ(radiance("\"float power\" -1 \"rgb L\" [5 5 5]", kRectangle), 5);
     // Of quadrics the area in object space counts.
-    EXPECT_FLOAT_EQ(radiance("\"float power\" 12", "Scale 3 3 3 Shape \"sphere\" \"float radius\" 2"), 12 / (pi * 16 * pi));
-    EXPECT_FLOAT_EQ(radiance("\"float power\" 12", "Shape \"disk\" \"float radius\" 2 \"float innerradius\" 1"), 12 / (pi * 3 * pi));
+    EXPECT_FLOAT_EQ(radiance("\"float power\" 12", "Scale 3 3 3 Shape \"sphere\" \"float radius\" 2"),
+                    12 / (pi * 16 * pi));
+    EXPECT_FLOAT_EQ(radiance("\"float power\" 12", "Shape \"disk\" \"float radius\" 2 \"float innerradius\" 1"),
+                    12 / (pi * 3 * pi));
 }
 
 TEST(AreaLights, AlphaZeroIsSeenByNoRayButShines) {
@@ -121,7 +129,8 @@ TEST(AreaLights, AreDroppedWhereTheyCannotBe) {
     EXPECT_TRUE(interface.scene.lights.empty());
     EXPECT_TRUE(interface.warnsOf("interface material cannot be an area light"));
 
-    const BuiltScene moving = buildWorld(kArea + "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All " + kRectangle);
+    const BuiltScene moving =
+        buildWorld(kArea + "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All " + kRectangle);
     EXPECT_TRUE(moving.scene.lights.empty());
     EXPECT_TRUE(moving.warnsOf("cannot be area lights"));
 
@@ -151,21 +160,24 @@ TEST(LightSources, SpectraBecomeLightOfLuminanceOne) {
 }
 
 TEST(LightSources, PointAndDistantFollowTheirMatrix) {
-    const auto point = onlyLight<PointLight>(buildWorld("Translate 1 2 3 Scale 2 2 2 LightSource \"point\" \"point3 from\" [1 0 0]"));
+    const auto point =
+        onlyLight<PointLight>(buildWorld("Translate 1 2 3 Scale 2 2 2 LightSource \"point\" \"point3 from\" [1 0 0]"));
     EXPECT_FLOAT_EQ(point.position.x, 3);
     EXPECT_FLOAT_EQ(point.position.z, 3);
-    const auto sun = onlyLight<DistantLight>(
-        buildWorld("Rotate 90 1 0 0 LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 to\" [0 1 0] \"float illuminance\" 7 \"rgb L\" [1 2 3]"));
+    const auto sun =
+        onlyLight<DistantLight>(buildWorld("Rotate 90 1 0 0 LightSource \"distant\" \"point3 from\" [0 5 0] \"point3 "
+                                           "to\" [0 1 0] \"float illuminance\" 7 \"rgb L\" [1 2 3]"));
     EXPECT_NEAR(sun.toLight.x, 0, 1e-6);
     EXPECT_NEAR(sun.toLight.y, 0, 1e-6);
-    EXPECT_NEAR(sun.toLight.z, 1, 1e-6);   // Rotate 90 1 0 0 takes +y to +z
+    EXPECT_NEAR(sun.toLight.z, 1, 1e-6);  // Rotate 90 1 0 0 takes +y to +z
     EXPECT_FLOAT_EQ(sun.irradiance.g, 14);
     const auto plain = onlyLight<DistantLight>(buildWorld("LightSource \"distant\""));
     EXPECT_FLOAT_EQ(plain.toLight.z, -1);
 }
 
 TEST(LightSources, ConstantInfiniteLight) {
-    const auto sky = onlyLight<ConstantInfiniteLight>(buildWorld("LightSource \"infinite\" \"rgb L\" [1 2 3] \"float illuminance\" 2"));
+    const auto sky = onlyLight<ConstantInfiniteLight>(
+        buildWorld("LightSource \"infinite\" \"rgb L\" [1 2 3] \"float illuminance\" 2"));
     EXPECT_FLOAT_EQ(sky.radiance.g, 4 / std::numbers::pi_v<float>);
     EXPECT_EQ(buildWorld("LightSource \"infinite\"").scene.lights.infiniteIds().size(), 1u);
 }
@@ -174,7 +186,8 @@ TEST(LightSources, ConstantInfiniteLight) {
 std::string pfm(int width, int height, Rgb c) {
     std::string bytes = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     for (int i = 0; i < width * height; ++i)
-        for (const float v : {c.r, c.g, c.b}) bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+        for (const float v : {c.r, c.g, c.b})
+            bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
     return bytes;
 }
 
@@ -183,7 +196,8 @@ TEST(LightSources, ImageInfiniteLight) {
     folder.file("sky.pfm", pfm(32, 32, {1, 2, 3}));
     folder.file("wide.pfm", pfm(32, 16, {1, 2, 3}));
     const auto radiance = [&](const std::string& parameters) {
-        const BuiltScene built = buildWorld("LightSource \"infinite\" \"string filename\" \"sky.pfm\" " + parameters, folder.path(""));
+        const BuiltScene built =
+            buildWorld("LightSource \"infinite\" \"string filename\" \"sky.pfm\" " + parameters, folder.path(""));
         return evaluateLight<float>(built.scene.lights, 0u, {{}, {}, {0, 0.6f, 0.8f}}).L;
     };
     EXPECT_FLOAT_EQ(radiance("").b, 3);
@@ -192,7 +206,9 @@ TEST(LightSources, ImageInfiniteLight) {
     const float luminance = 0.2126f * 1 + 0.7152f * 2 + 0.0722f * 3;
     EXPECT_NEAR(radiance("\"float illuminance\" 1").r, 2 / (std::numbers::pi_v<float> * luminance), 5e-3);
 
-    const auto error = [&](const std::string& light) { return errorOf("WorldBegin\n LightSource \"infinite\" " + light, {}, folder.path("")); };
+    const auto error = [&](const std::string& light) {
+        return errorOf("WorldBegin\n LightSource \"infinite\" " + light, {}, folder.path(""));
+    };
     const std::string wide = error("\"string filename\" \"wide.pfm\"");
     EXPECT_EQ(wide.rfind("test.pbrt:2:2: light 'infinite': the image ", 0), 0u) << wide;
     EXPECT_NE(wide.find("32 x 16"), std::string::npos) << wide;
@@ -201,7 +217,9 @@ TEST(LightSources, ImageInfiniteLight) {
 }
 
 TEST(LightSources, OthersAreReplacedWithOneWarning) {
-    const BuiltScene built = buildWorld("LightSource \"spot\" \"rgb I\" [2 2 2]\nLightSource \"spot\"\nLightSource \"projection\" \"string filename\" \"x.exr\"");
+    const BuiltScene built = buildWorld(
+        "LightSource \"spot\" \"rgb I\" [2 2 2]\nLightSource \"spot\"\nLightSource \"projection\" \"string filename\" "
+        "\"x.exr\"");
     EXPECT_EQ(built.scene.lights.rows<PointLight>().size(), 3u);
     EXPECT_EQ(built.scene.lights.rows<PointLight>()[0].intensity.r, 2);
     ASSERT_EQ(built.warnings.all().size(), 2u);

@@ -2,16 +2,24 @@
 #include "tests/scenes_builder_fixture.h"
 #include "tests/temporary_folder.h"
 
+#include <cmath>
+
 namespace penumbra {
 namespace {
 
 const std::string kLight = "LightSource \"point\"\n";
 
-BuiltScene withMaterial(const std::string& material) { return buildWorld(kLight + material + "\nShape \"sphere\""); }
+BuiltScene withMaterial(const std::string& material) {
+    return buildWorld(kLight + material + "\nShape \"sphere\"");
+}
 
-std::string materialError(const std::string& material) { return errorOf("WorldBegin\n" + material + "\nShape \"sphere\""); }
+std::string materialError(const std::string& material) {
+    return errorOf("WorldBegin\n" + material + "\nShape \"sphere\"");
+}
 
-std::uint32_t flagsOf(const BuiltScene& built) { return built.scene.geometry.shapes.at(0).flags; }
+std::uint32_t flagsOf(const BuiltScene& built) {
+    return built.scene.geometry.shapes.at(0).flags;
+}
 
 template <class M>
 M onlyMaterial(const BuiltScene& built) {
@@ -28,9 +36,11 @@ TEST(MaterialLibrary, TheInitialMaterialIsGrey) {
 }
 
 TEST(MaterialLibrary, NamesMayBeUsedBeforeTheyAreDefined) {
-    const BuiltScene built = buildWorld(kLight + "NamedMaterial \"glass\" Shape \"sphere\" Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"disk\" "
-                                                 "MakeNamedMaterial \"glass\" \"string type\" \"dielectric\" \"float eta\" 1.7 "
-                                                 "NamedMaterial \"glass\" Shape \"disk\"");
+    const BuiltScene built = buildWorld(
+        kLight +
+        "NamedMaterial \"glass\" Shape \"sphere\" Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"disk\" "
+        "MakeNamedMaterial \"glass\" \"string type\" \"dielectric\" \"float eta\" 1.7 "
+        "NamedMaterial \"glass\" Shape \"disk\"");
     EXPECT_EQ(built.scene.materials.size(), 2u) << "one for each that is used";
     const auto& shapes = built.scene.geometry.shapes;
     EXPECT_EQ(shapes[0].material, shapes[2].material);
@@ -43,9 +53,10 @@ TEST(MaterialLibrary, NamesMayBeUsedBeforeTheyAreDefined) {
 TEST(MaterialLibrary, UnknownNamesAndTypesNameTheNearest) {
     EXPECT_EQ(materialError("MakeNamedMaterial \"steel\" \"string type\" \"conductor\"\n  NamedMaterial \"stele\""),
               "test.pbrt:3:3: unknown material 'stele'; did you mean 'steel'?");
-    EXPECT_EQ(materialError("Material \"difuse\""), "test.pbrt:2:1: unknown material 'difuse'; did you mean 'diffuse'?");
+    EXPECT_EQ(materialError("Material \"difuse\""),
+              "test.pbrt:2:1: unknown material 'difuse'; did you mean 'diffuse'?");
     EXPECT_EQ(errorOf("WorldBegin\nMakeNamedMaterial \"unused\" \"string type\" \"conducter\""),
-              "test.pbrt:2:1: unknown material 'conducter'; did you mean 'conductor' or 'coatedconductor'?");
+              "test.pbrt:2:1: unknown material 'conducter'; did you mean 'conductor'?");
 }
 
 TEST(MaterialLibrary, OldWordsForInterface) {
@@ -57,59 +68,84 @@ TEST(MaterialLibrary, OldWordsForInterface) {
 }
 
 TEST(MaterialLibrary, StandInsWarnOnceAndTakeWhatTheyKnow) {
-    const BuiltScene coated = buildWorld(kLight + "Material \"coatedconductor\" \"float conductor.roughness\" 0.25 \"rgb reflectance\" [.2 .4 .6]\nShape \"sphere\"\n"
-                                                  "Material \"coatedconductor\" Shape \"disk\"");
+    const BuiltScene coated = buildWorld(kLight +
+                                         "Material \"coatedconductor\" \"float conductor.roughness\" 0.25 \"rgb "
+                                         "reflectance\" [.2 .4 .6]\nShape \"sphere\"\n"
+                                         "Material \"coatedconductor\" Shape \"disk\"");
     const auto& metals = coated.scene.materials.rows<ConductorMaterial>();
     ASSERT_EQ(metals.size(), 2u);
     EXPECT_EQ(metals[0].uAlpha.constant, 0.5f);
     EXPECT_EQ(metals[0].reflectance.constant.b, 0.6f);
     ASSERT_EQ(coated.warnings.all().size(), 1u);
-    EXPECT_EQ(coated.warnings.all()[0], "test.pbrt:3:1: the material 'coatedconductor' is not there yet; 'conductor' stands in for it");
+    EXPECT_EQ(coated.warnings.all()[0],
+              "test.pbrt:3:1: the material 'coatedconductor' is not there yet; 'conductor' stands in for it");
 
     EXPECT_EQ(withMaterial("Material \"thindielectric\"").scene.materials.rows<InterfaceMaterial>().size(), 1u);
     EXPECT_EQ(onlyMaterial<DielectricMaterial>(withMaterial("Material \"subsurface\"")).eta, 1.33f);
     EXPECT_EQ(onlyMaterial<DielectricMaterial>(withMaterial("Material \"subsurface\" \"float eta\" 1.5")).eta, 1.5f);
-    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"diffusetransmission\"")).reflectance.constant.r, 0.25f);
-    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"diffusetransmission\" \"rgb reflectance\" [.7 .7 .7]")).reflectance.constant.r, 0.7f);
-    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"hair\" \"rgb color\" [.7 .7 .7]")).reflectance.constant.r, 0.7f);
-    EXPECT_EQ(withMaterial("Material \"measured\" \"string filename\" \"x.bsdf\"").scene.materials.rows<DiffuseMaterial>().size(), 1u);
+    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"diffusetransmission\"")).reflectance.constant.r,
+              0.25f);
+    EXPECT_EQ(
+        onlyMaterial<DiffuseMaterial>(withMaterial("Material \"diffusetransmission\" \"rgb reflectance\" [.7 .7 .7]"))
+            .reflectance.constant.r,
+        0.7f);
+    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"hair\" \"rgb color\" [.7 .7 .7]"))
+                  .reflectance.constant.r,
+              0.7f);
+    EXPECT_EQ(withMaterial("Material \"measured\" \"string filename\" \"x.bsdf\"")
+                  .scene.materials.rows<DiffuseMaterial>()
+                  .size(),
+              1u);
 }
 
 TEST(MaterialLibrary, MixIsItsFirst) {
-    const std::string two = "MakeNamedMaterial \"a\" \"string type\" \"conductor\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
-    const BuiltScene built = withMaterial(two + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.2");
+    const std::string two =
+        "MakeNamedMaterial \"a\" \"string type\" \"conductor\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
+    const BuiltScene built =
+        withMaterial(two + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.2");
     EXPECT_EQ(built.scene.materials.rows<ConductorMaterial>().size(), 1u);
     EXPECT_TRUE(built.warnsOf("the first of its two stands in"));
-    EXPECT_NE(materialError("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"] NamedMaterial \"m\"").find("refers to itself"),
-              std::string::npos);
+    EXPECT_NE(
+        materialError(
+            "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"] NamedMaterial \"m\"")
+            .find("refers to itself"),
+        std::string::npos);
     EXPECT_NE(materialError("Material \"mix\"").find("needs the names of two materials"), std::string::npos);
 }
 
 TEST(MaterialLibrary, ADeepChainOfMixesIsAnError) {
     std::string chain = "MakeNamedMaterial \"m0\" \"string type\" \"diffuse\"\n";
     for (int i = 1; i < 20000; ++i)
-        chain += "MakeNamedMaterial \"m" + std::to_string(i) + "\" \"string type\" \"mix\" \"string materials\" [\"m" + std::to_string(i - 1) + "\" \"m0\"]\n";
+        chain += "MakeNamedMaterial \"m" + std::to_string(i) + "\" \"string type\" \"mix\" \"string materials\" [\"m" +
+                 std::to_string(i - 1) + "\" \"m0\"]\n";
     EXPECT_NE(materialError(chain + "NamedMaterial \"m19999\"").find("more than 64 deep"), std::string::npos);
 }
 
 TEST(MaterialLibrary, BumpMapsWarn) {
-    EXPECT_TRUE(withMaterial("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture displacement\" \"t\"").warnsOf("bump and normal maps"));
+    EXPECT_TRUE(withMaterial("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture displacement\" \"t\"")
+                    .warnsOf("bump and normal maps"));
     EXPECT_TRUE(withMaterial("Material \"diffuse\" \"string normalmap\" \"n.png\"").warnsOf("bump and normal maps"));
 }
 
 TEST(MaterialLibrary, UnusedParametersWarn) {
     const BuiltScene built = withMaterial("Material \"diffuse\" \"rgb reflectanse\" [1 1 1]");
-    EXPECT_TRUE(built.warnsOf("test.pbrt:3:20: parameter 'rgb reflectanse' of material 'diffuse' is unknown; did you mean 'reflectance'?"));
+    EXPECT_TRUE(built.warnsOf(
+        "test.pbrt:3:20: parameter 'rgb reflectanse' of material 'diffuse' is unknown; did you mean 'reflectance'?"));
 }
 
 TEST(MaterialLibrary, ConductorsAndIndices) {
-    const auto index = [](const std::string& p) { return onlyMaterial<ConductorMaterial>(withMaterial("Material \"conductor\" " + p)); };
+    const auto index = [](const std::string& p) {
+        return onlyMaterial<ConductorMaterial>(withMaterial("Material \"conductor\" " + p));
+    };
     // eta 0.2, k 3: eta^2 - k^2 and 4 eta^2 k^2.
     const ConductorMaterial rgb = index("\"rgb eta\" [.2 .2 .2] \"rgb k\" [3 3 3]");
     EXPECT_NEAR(rgb.difference.r, 0.04f - 9, 1e-5);
     EXPECT_NEAR(rgb.product.r, 4 * 0.04f * 9, 1e-5);
-    EXPECT_NE(index("\"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"").difference.r, index("").difference.r);
-    EXPECT_NE(materialError("Material \"conductor\" \"rgb reflectance\" [.5 .5 .5] \"rgb eta\" [1 1 1]").find("not both"), std::string::npos);
+    EXPECT_NE(index("\"spectrum eta\" \"metal-Ag-eta\" \"spectrum k\" \"metal-Ag-k\"").difference.r,
+              index("").difference.r);
+    EXPECT_NE(
+        materialError("Material \"conductor\" \"rgb reflectance\" [.5 .5 .5] \"rgb eta\" [1 1 1]").find("not both"),
+        std::string::npos);
     const BuiltScene glass = withMaterial("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
     EXPECT_NEAR(onlyMaterial<DielectricMaterial>(glass).eta, 1.51842, 1e-3);
 }
@@ -133,22 +169,37 @@ TEST_P(MaterialNeeds, AreAskedOfShapesAndNoMore) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, MaterialNeeds,
-    testing::Values(
-        NeedsCase{"Constant", "Material \"diffuse\"", false, false}, NeedsCase{"Isotropic", "Material \"conductor\" \"float roughness\" 0.3", false, false},
-        NeedsCase{"EqualAxes", "Material \"conductor\" \"float uroughness\" 0.3 \"float vroughness\" 0.3", false, false},
-        NeedsCase{"Anisotropic", "Material \"conductor\" \"float uroughness\" 0.1 \"float vroughness\" 0.3", false, true},
-        NeedsCase{"OneAxis", "Material \"coateddiffuse\" \"float uroughness\" 0.1", false, true},
-        NeedsCase{"Image", "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\" Material \"diffuse\" \"texture reflectance\" \"t\"", true, false},
-        NeedsCase{"ConstantTexture", "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0] Material \"diffuse\" \"texture reflectance\" \"t\"", false, false},
-        NeedsCase{"TexturedAxis", "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"t.pfm\" Material \"conductor\" \"texture uroughness\" \"t\"", true, true},
-        NeedsCase{"TexturedBoth", "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"t.pfm\" Material \"conductor\" \"texture roughness\" \"t\"", true, false}),
+    testing::Values(NeedsCase{"Constant", "Material \"diffuse\"", false, false},
+                    NeedsCase{"Isotropic", "Material \"conductor\" \"float roughness\" 0.3", false, false},
+                    NeedsCase{"EqualAxes", "Material \"conductor\" \"float uroughness\" 0.3 \"float vroughness\" 0.3",
+                              false, false},
+                    NeedsCase{"Anisotropic", "Material \"conductor\" \"float uroughness\" 0.1 \"float vroughness\" 0.3",
+                              false, true},
+                    NeedsCase{"OneAxis", "Material \"coateddiffuse\" \"float uroughness\" 0.1", false, true},
+                    NeedsCase{"Image",
+                              "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\" Material "
+                              "\"diffuse\" \"texture reflectance\" \"t\"",
+                              true, false},
+                    NeedsCase{"ConstantTexture",
+                              "Texture \"t\" \"spectrum\" \"constant\" \"rgb value\" [1 0 0] Material \"diffuse\" "
+                              "\"texture reflectance\" \"t\"",
+                              false, false},
+                    NeedsCase{"TexturedAxis",
+                              "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"t.pfm\" Material "
+                              "\"conductor\" \"texture uroughness\" \"t\"",
+                              true, true},
+                    NeedsCase{"TexturedBoth",
+                              "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"t.pfm\" Material "
+                              "\"conductor\" \"texture roughness\" \"t\"",
+                              true, false}),
     [](const auto& info) { return info.param.name; });
 
 TEST(TextureLibrary, ConstantsAndScalesFoldIntoMaterials) {
-    const BuiltScene built = withMaterial("Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [.2 .4 .8]\n"
-                                          "Texture \"half\" \"float\" \"constant\" \"float value\" 0.5\n"
-                                          "Texture \"b\" \"spectrum\" \"scale\" \"texture tex\" \"a\" \"texture scale\" \"half\"\n"
-                                          "Material \"diffuse\" \"texture reflectance\" \"b\"");
+    const BuiltScene built = withMaterial(
+        "Texture \"a\" \"spectrum\" \"constant\" \"rgb value\" [.2 .4 .8]\n"
+        "Texture \"half\" \"float\" \"constant\" \"float value\" 0.5\n"
+        "Texture \"b\" \"spectrum\" \"scale\" \"texture tex\" \"a\" \"texture scale\" \"half\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"b\"");
     EXPECT_FLOAT_EQ(onlyMaterial<DiffuseMaterial>(built).reflectance.constant.b, 0.4f);
     EXPECT_EQ(built.scene.textures.count(), 0u);
 }
@@ -165,9 +216,11 @@ TEST(TextureLibrary, ATextureIsMadeOnceForEachRole) {
 }
 
 TEST(TextureLibrary, ClassesThatAreNotThereYetWarnOnce) {
-    const BuiltScene built = withMaterial("Texture \"m\" \"spectrum\" \"mix\" \"rgb tex1\" [.1 .2 .3] \"float amount\" 0.5\n"
-                                          "Texture \"n\" \"float\" \"fbm\"\nTexture \"n2\" \"float\" \"fbm\"\n"
-                                          "Material \"coateddiffuse\" \"texture reflectance\" \"m\" \"texture uroughness\" \"n\" \"texture vroughness\" \"n2\"");
+    const BuiltScene built = withMaterial(
+        "Texture \"m\" \"spectrum\" \"mix\" \"rgb tex1\" [.1 .2 .3] \"float amount\" 0.5\n"
+        "Texture \"n\" \"float\" \"fbm\"\nTexture \"n2\" \"float\" \"fbm\"\n"
+        "Material \"coateddiffuse\" \"texture reflectance\" \"m\" \"texture uroughness\" \"n\" \"texture vroughness\" "
+        "\"n2\"");
     EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).reflectance.constant.g, 0.2f);
     EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).uAlpha.constant, std::sqrt(0.5f));
     EXPECT_EQ(built.warnings.all().size(), 2u);
@@ -176,11 +229,18 @@ TEST(TextureLibrary, ClassesThatAreNotThereYetWarnOnce) {
 
 TEST(TextureLibrary, Errors) {
     const std::string use = "\nMaterial \"diffuse\" \"texture reflectance\" \"t\"";
-    EXPECT_EQ(materialError("Texture \"u\" \"spectrum\" \"constant\"" + use), "test.pbrt:3:20: unknown spectrum texture 't'; did you mean 'u'?");
-    EXPECT_NE(materialError("Texture \"t\" \"float\" \"constant\"" + use).find("needs a spectrum texture, and 't' is one of the other kind"), std::string::npos);
-    EXPECT_EQ(materialError("Texture \"t\" \"spectrum\" \"imagemapp\""), "test.pbrt:2:1: unknown texture class 'imagemapp'; did you mean 'imagemap'?");
-    EXPECT_NE(materialError("Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"t\"" + use).find("the texture 't' refers to itself"), std::string::npos);
-    const std::string missing = materialError("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"no.png\"" + use);
+    EXPECT_EQ(materialError("Texture \"u\" \"spectrum\" \"constant\"" + use),
+              "test.pbrt:3:20: unknown spectrum texture 't'; known: u");
+    EXPECT_NE(materialError("Texture \"t\" \"float\" \"constant\"" + use)
+                  .find("needs a spectrum texture, and 't' is one of the other kind"),
+              std::string::npos);
+    EXPECT_EQ(materialError("Texture \"t\" \"spectrum\" \"imagemapp\""),
+              "test.pbrt:2:1: unknown texture class 'imagemapp'; did you mean 'imagemap'?");
+    EXPECT_NE(materialError("Texture \"t\" \"spectrum\" \"scale\" \"texture tex\" \"t\"" + use)
+                  .find("the texture 't' refers to itself"),
+              std::string::npos);
+    const std::string missing =
+        materialError("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"no.png\"" + use);
     EXPECT_EQ(missing.rfind("test.pbrt:2:1: texture 't': ", 0), 0u) << missing;
     EXPECT_NE(missing.find("no.png"), std::string::npos) << missing;
 }
@@ -188,8 +248,11 @@ TEST(TextureLibrary, Errors) {
 TEST(TextureLibrary, ADeepChainIsAnError) {
     std::string chain = "Texture \"t0\" \"spectrum\" \"constant\"\n";
     for (int i = 1; i < 20000; ++i)
-        chain += "Texture \"t" + std::to_string(i) + "\" \"spectrum\" \"scale\" \"texture tex\" \"t" + std::to_string(i - 1) + "\"\n";
-    EXPECT_NE(materialError(chain + "Material \"diffuse\" \"texture reflectance\" \"t19999\"").find("more than 64 deep"), std::string::npos);
+        chain += "Texture \"t" + std::to_string(i) + "\" \"spectrum\" \"scale\" \"texture tex\" \"t" +
+                 std::to_string(i - 1) + "\"\n";
+    EXPECT_NE(
+        materialError(chain + "Material \"diffuse\" \"texture reflectance\" \"t19999\"").find("more than 64 deep"),
+        std::string::npos);
 }
 
 }  // namespace

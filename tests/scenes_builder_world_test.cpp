@@ -2,17 +2,19 @@
 #include "tests/scenes_builder_fixture.h"
 #include "tests/temporary_folder.h"
 
+#include <cmath>
+
 namespace penumbra {
 namespace {
 
 const std::string kTriangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  4 0 0  0 4 0]\n";
 const std::string kTriangleWithNormals =
     "Shape \"trianglemesh\" \"point3 P\" [0 0 0  4 0 0  0 4 0] \"normal N\" [0 0 -1  0 0 -1  0 0 -1]\n";
-const std::string kInteriorLight = "LightSource \"infinite\"\n";
+const std::string kLight = "LightSource \"infinite\"\n";
 
 /// z of the geometric normal met by a ray along -z through (x, y).
 float normalZ(const std::string& world, float x = 0.5f, float y = 0.5f) {
-    const BuiltScene built = buildWorld(kInteriorLight + world);
+    const BuiltScene built = buildWorld(kLight + world);
     const auto hit = trace(built.scene, {x, y, 10}, {0, 0, -1});
     return hit ? hit->at.ng.z : 0.f;
 }
@@ -27,13 +29,14 @@ struct OrientationCase {
 class Orientation : public testing::TestWithParam<OrientationCase> {};
 
 TEST_P(Orientation, GivesTheNormalOfTheFormat) {
-    EXPECT_FLOAT_EQ(normalZ(GetParam().world, GetParam().x), GetParam().expected);
+    EXPECT_GT(normalZ(GetParam().world, GetParam().x) * GetParam().expected, 0.8f);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, Orientation,
     testing::Values(
-        OrientationCase{"Triangle", kTriangle, 1}, OrientationCase{"TriangleReversed", "ReverseOrientation\n" + kTriangle, -1},
+        OrientationCase{"Triangle", kTriangle, 1},
+        OrientationCase{"TriangleReversed", "ReverseOrientation\n" + kTriangle, -1},
         // A mirrored mesh keeps the side that it had in object space.
         OrientationCase{"TriangleMirroredInX", "Scale -1 1 1\n" + kTriangle, 1, -0.5f},
         OrientationCase{"TriangleMirroredInZ", "Scale 1 1 -1\n" + kTriangle, -1},
@@ -44,23 +47,29 @@ INSTANTIATE_TEST_SUITE_P(
         OrientationCase{"NormalsReversed", "ReverseOrientation\n" + kTriangleWithNormals, 1},
         OrientationCase{"NormalsMirrored", "Scale 1 1 -1\n" + kTriangleWithNormals, 1},
         // Seen from +z, a sphere shows its outside; a mirroring matrix turns quadrics inside out.
-        OrientationCase{"Sphere", "Shape \"sphere\"", 1, 0}, OrientationCase{"SphereReversed", "ReverseOrientation Shape \"sphere\"", -1, 0},
+        OrientationCase{"Sphere", "Shape \"sphere\"", 1, 0},
+        OrientationCase{"SphereReversed", "ReverseOrientation Shape \"sphere\"", -1, 0},
         OrientationCase{"SphereMirrored", "Scale -1 1 1 Shape \"sphere\"", -1, 0},
         OrientationCase{"SphereMirroredReversed", "Scale -1 1 1 ReverseOrientation Shape \"sphere\"", 1, 0},
-        OrientationCase{"Disk", "Shape \"disk\"", 1, 0}, OrientationCase{"DiskReversed", "ReverseOrientation Shape \"disk\"", -1, 0},
+        OrientationCase{"Disk", "Shape \"disk\"", 1, 0},
+        OrientationCase{"DiskReversed", "ReverseOrientation Shape \"disk\"", -1, 0},
         OrientationCase{"DiskTurned", "Rotate 180 1 0 0 Shape \"disk\"", -1, 0},
         OrientationCase{"DiskMirroredInX", "Scale -1 1 1 Shape \"disk\"", -1, 0},
         // Of an instance the stored normal is transformed, without a further turn.
         OrientationCase{"Instance", "ObjectBegin \"o\" " + kTriangle + "ObjectEnd ObjectInstance \"o\"", 1},
-        OrientationCase{"InstanceMirrored", "ObjectBegin \"o\" " + kTriangle + "ObjectEnd Scale 1 1 -1 ObjectInstance \"o\"", -1},
-        OrientationCase{"MirroredInObject", "ObjectBegin \"o\" Scale 1 1 -1 " + kTriangle + "ObjectEnd ObjectInstance \"o\"", -1},
-        OrientationCase{"SphereInstanceMirrored", "ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Scale -1 1 1 ObjectInstance \"o\"", 1, 0},
+        OrientationCase{"InstanceMirrored",
+                        "ObjectBegin \"o\" " + kTriangle + "ObjectEnd Scale 1 1 -1 ObjectInstance \"o\"", -1},
+        OrientationCase{"MirroredInObject",
+                        "ObjectBegin \"o\" Scale 1 1 -1 " + kTriangle + "ObjectEnd ObjectInstance \"o\"", -1},
+        OrientationCase{"SphereInstanceMirrored",
+                        "ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Scale -1 1 1 ObjectInstance \"o\"", 1, 0},
         OrientationCase{"Patch", "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 4 0  4 4 0]", 1},
-        OrientationCase{"Subdivision", "Shape \"loopsubdiv\" \"point3 P\" [0 0 0  4 0 0  0 4 0] \"integer indices\" [0 1 2]", -1}),
+        OrientationCase{"Subdivision",
+                        "Shape \"loopsubdiv\" \"point3 P\" [0 0 0  4 0 0  0 4 0] \"integer indices\" [0 1 2]", -1}),
     [](const auto& info) { return info.param.name; });
 
 TEST(WorldBuilder, BakesMatricesIntoMeshes) {
-    const BuiltScene built = buildWorld(kInteriorLight + "Translate 0 0 3 Scale 2 2 2 " + kTriangle);
+    const BuiltScene built = buildWorld(kLight + "Translate 0 0 3 Scale 2 2 2 " + kTriangle);
     const auto hit = trace(built.scene, {5, 2, 10}, {0, 0, -1});
     ASSERT_TRUE(hit);
     EXPECT_FLOAT_EQ(hit->distance, 7);
@@ -69,7 +78,7 @@ TEST(WorldBuilder, BakesMatricesIntoMeshes) {
 }
 
 TEST(WorldBuilder, PlacesObjects) {
-    const BuiltScene built = buildWorld(kInteriorLight +
+    const BuiltScene built = buildWorld(kLight +
                                         "ObjectBegin \"o\" Translate 0 0 1 Shape \"disk\" ObjectEnd "
                                         "ObjectInstance \"o\" Translate 10 0 2 ObjectInstance \"o\"");
     EXPECT_EQ(built.scene.geometry.instances.size(), 2u);
@@ -82,20 +91,22 @@ TEST(WorldBuilder, PlacesObjects) {
 }
 
 TEST(WorldBuilder, LeavesOutWhatIsNeverPlacedOrEmpty) {
-    const BuiltScene built = buildWorld(kInteriorLight +
-                                        "ObjectBegin \"unused\" Shape \"sphere\" ObjectEnd "
-                                        "ObjectBegin \"empty\" ObjectEnd ObjectInstance \"empty\" "
-                                        "ObjectBegin \"flat\" Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 2 0 0] ObjectEnd "
-                                        "ObjectInstance \"flat\"");
+    const BuiltScene built =
+        buildWorld(kLight +
+                   "ObjectBegin \"unused\" Shape \"sphere\" ObjectEnd "
+                   "ObjectBegin \"empty\" ObjectEnd ObjectInstance \"empty\" "
+                   "ObjectBegin \"flat\" Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 2 0 0] ObjectEnd "
+                   "ObjectInstance \"flat\"");
     EXPECT_TRUE(built.scene.geometry.shapes.empty());
     EXPECT_TRUE(built.scene.geometry.instances.empty());
     EXPECT_EQ(built.scene.facts.droppedTriangles, 1u);
-    EXPECT_TRUE(built.warnsOf("test.pbrt:3:128: shape 'trianglemesh': no triangle is left") || built.warnsOf("no triangle is left"));
+    EXPECT_TRUE(built.warnsOf("shape 'trianglemesh': no triangle is left of the mesh"));
     EXPECT_FALSE(trace(built.scene, {0, 0, 10}, {0, 0, -1}));
 }
 
 TEST(WorldBuilder, MovesShapes) {
-    const BuiltScene built = buildWorld(kInteriorLight + "ActiveTransform EndTime Translate 4 0 0 ActiveTransform All Shape \"disk\"");
+    const BuiltScene built =
+        buildWorld(kLight + "ActiveTransform EndTime Translate 4 0 0 ActiveTransform All Shape \"disk\"");
     EXPECT_TRUE(built.scene.hasMotion);
     ASSERT_EQ(built.scene.geometry.instances.size(), 1u);
     for (const float time : {0.f, 0.25f, 0.5f, 1.f}) {
@@ -105,9 +116,10 @@ TEST(WorldBuilder, MovesShapes) {
 }
 
 TEST(WorldBuilder, MovesInstances) {
-    const BuiltScene built = buildWorld(kInteriorLight +
-                                        "ObjectBegin \"o\" Translate 0 7 0 Shape \"disk\" ObjectEnd "
-                                        "ActiveTransform EndTime Translate 4 0 0 ActiveTransform All ObjectInstance \"o\"");
+    const BuiltScene built =
+        buildWorld(kLight +
+                   "ObjectBegin \"o\" Translate 0 7 0 Shape \"disk\" ObjectEnd "
+                   "ActiveTransform EndTime Translate 4 0 0 ActiveTransform All ObjectInstance \"o\"");
     EXPECT_TRUE(built.scene.hasMotion);
     EXPECT_TRUE(trace(built.scene, {0, 7, 10}, {0, 0, -1}, 0));
     EXPECT_TRUE(trace(built.scene, {2, 7, 10}, {0, 0, -1}, 0.5f));
@@ -117,30 +129,34 @@ TEST(WorldBuilder, MovesInstances) {
 /// A shape that moves inside an object has a group of its own, placed by the product of both motions.
 TEST(WorldBuilder, MovesShapesInsideObjects) {
     const std::string object =
-        "ObjectBegin \"o\" Shape \"disk\" ActiveTransform EndTime Translate 4 0 0 ActiveTransform All Shape \"disk\" ObjectEnd ";
-    const BuiltScene still = buildWorld(kInteriorLight + object + "Translate 0 20 0 Scale 2 2 2 ObjectInstance \"o\"");
+        "ObjectBegin \"o\" Shape \"disk\" ActiveTransform EndTime Translate 4 0 0 ActiveTransform All Shape \"disk\" "
+        "ObjectEnd ";
+    const BuiltScene still = buildWorld(kLight + object + "Translate 0 20 0 Scale 2 2 2 ObjectInstance \"o\"");
     EXPECT_EQ(still.scene.geometry.groups.size(), 3u);
     EXPECT_EQ(still.scene.geometry.instances.size(), 2u);
     EXPECT_TRUE(trace(still.scene, {4, 20, 10}, {0, 0, -1}, 0.5f));
     EXPECT_TRUE(trace(still.scene, {0, 20, 10}, {0, 0, -1}, 1));
     EXPECT_FALSE(trace(still.scene, {4, 20, 10}, {0, 0, -1}, 0));
 
-    const BuiltScene moving =
-        buildWorld(kInteriorLight + object + "ActiveTransform EndTime Translate 0 10 0 ActiveTransform All ObjectInstance \"o\"");
+    const BuiltScene moving = buildWorld(
+        kLight + object + "ActiveTransform EndTime Translate 0 10 0 ActiveTransform All ObjectInstance \"o\"");
     EXPECT_TRUE(trace(moving.scene, {2, 5, 10}, {0, 0, -1}, 0.5f));
     EXPECT_TRUE(trace(moving.scene, {4, 10, 10}, {0, 0, -1}, 1));
     EXPECT_TRUE(trace(moving.scene, {0, 10, 10}, {0, 0, -1}, 1));
 }
 
 TEST(WorldBuilder, KnowsThatTheCameraMoves) {
-    const BuiltScene built = buildText("ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\nCamera \"perspective\"\nWorldBegin " + kInteriorLight);
+    const BuiltScene built = buildText(
+        "ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\nCamera \"perspective\"\nWorldBegin " + kLight);
     EXPECT_TRUE(built.scene.hasMotion);
     EXPECT_TRUE(built.scene.camera.moves());
 }
 
 TEST(WorldBuilder, CutsQuadrics) {
-    const BuiltScene built = buildWorld(kInteriorLight + "Shape \"sphere\" \"float radius\" 2 \"float zmin\" 1.5 \"float zmax\" -1 "
-                                                         "Translate 10 0 0 Shape \"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float height\" 3");
+    const BuiltScene built =
+        buildWorld(kLight +
+                   "Shape \"sphere\" \"float radius\" 2 \"float zmin\" 1.5 \"float zmax\" -1 "
+                   "Translate 10 0 0 Shape \"disk\" \"float radius\" 2 \"float innerradius\" 1 \"float height\" 3");
     ASSERT_EQ(built.scene.geometry.quadrics.size(), 2u);
     const QuadricRecord& sphere = built.scene.geometry.quadrics[0];
     EXPECT_FLOAT_EQ(sphere.zMin, -1);
@@ -152,7 +168,7 @@ TEST(WorldBuilder, CutsQuadrics) {
 }
 
 TEST(WorldBuilder, LeavesOutWhatFloatsCannotHold) {
-    const BuiltScene built = buildWorld(kInteriorLight +
+    const BuiltScene built = buildWorld(kLight +
                                         "AttributeBegin Scale 1e-30 1e-30 1e-30 Shape \"sphere\" AttributeEnd "
                                         "AttributeBegin Scale 1e30 1e30 1e30 Shape \"sphere\" AttributeEnd "
                                         "ObjectBegin \"o\" Shape \"sphere\" ObjectEnd "
@@ -163,7 +179,7 @@ TEST(WorldBuilder, LeavesOutWhatFloatsCannotHold) {
 }
 
 TEST(WorldBuilder, WarnsOnceOfShapesThatAreNotThereYet) {
-    const BuiltScene built = buildWorld(kInteriorLight + "Shape \"cylinder\"\nShape \"cylinder\"\nShape \"curve\"\n");
+    const BuiltScene built = buildWorld(kLight + "Shape \"cylinder\"\nShape \"cylinder\"\nShape \"curve\"\n");
     ASSERT_EQ(built.warnings.all().size(), 2u);
     EXPECT_EQ(built.warnings.all()[0], "test.pbrt:3:1: the shape 'cylinder' is not there yet and is left out");
     EXPECT_TRUE(built.scene.geometry.shapes.empty());
@@ -171,8 +187,9 @@ TEST(WorldBuilder, WarnsOnceOfShapesThatAreNotThereYet) {
 
 TEST(WorldBuilder, ReadsPlyMeshes) {
     const TemporaryFolder folder;
-    folder.file("m.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                         "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n4 0 0\n0 4 0\n3 0 1 2\n");
+    folder.file("m.ply",
+                "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n4 0 0\n0 4 0\n3 0 1 2\n");
     const std::string scene = "WorldBegin LightSource \"infinite\"\nShape \"plymesh\" \"string filename\" \"m.ply\"";
     const BuiltScene built = buildText(scene, {}, folder.path(""));
     EXPECT_EQ(built.scene.facts.triangles, 1u);
@@ -191,17 +208,24 @@ TEST(WorldBuilder, NamesTheDirectiveAndTheFileThatIsMissing) {
 }
 
 TEST(WorldBuilder, DropsWhatNoMaterialLooksAt) {
-    const std::string mesh = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 4 0 0 0 4 0] \"point2 uv\" [0 0 1 0 0 1] \"vector3 S\" [1 0 0 1 0 0 1 0 0]\n";
+    const std::string mesh =
+        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 4 0 0 0 4 0] \"point2 uv\" [0 0 1 0 0 1] \"vector3 S\" [1 0 0 1 0 "
+        "0 1 0 0]\n";
     EXPECT_TRUE(buildWorld(mesh).scene.geometry.uvs.empty());
-    const BuiltScene anisotropic = buildWorld("Material \"conductor\" \"float uroughness\" 0.1 \"float vroughness\" 0.3\n" + mesh);
+    const BuiltScene anisotropic =
+        buildWorld("Material \"conductor\" \"float uroughness\" 0.1 \"float vroughness\" 0.3\n" + mesh);
     EXPECT_EQ(anisotropic.scene.geometry.uvs.size(), 6u);
     EXPECT_EQ(anisotropic.scene.geometry.tangents.size(), 9u);
 }
 
 TEST(WorldBuilder, MarksTheBordersOfMedia) {
-    const std::string medium = "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [0 0 0] \"float scale\" 2\n";
-    const BuiltScene built = buildText("MediumInterface \"\" \"ink\"\nCamera \"perspective\"\n" + medium + "WorldBegin LightSource \"infinite\"\n"
-                                       "MediumInterface \"ink\" \"\" Shape \"sphere\" MediumInterface \"ink\" \"ink\" Shape \"disk\"");
+    const std::string medium =
+        "MakeNamedMedium \"ink\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 2 3] \"rgb sigma_s\" [0 0 0] "
+        "\"float scale\" 2\n";
+    const BuiltScene built =
+        buildText("MediumInterface \"\" \"ink\"\nCamera \"perspective\"\n" + medium +
+                  "WorldBegin LightSource \"infinite\"\n"
+                  "MediumInterface \"ink\" \"\" Shape \"sphere\" MediumInterface \"ink\" \"ink\" Shape \"disk\"");
     ASSERT_EQ(built.scene.media.size(), 2u);
     EXPECT_EQ(built.scene.media[1].absorption.g, 4);
     EXPECT_EQ(built.scene.cameraMedium, 1u);
@@ -214,8 +238,9 @@ TEST(WorldBuilder, MarksTheBordersOfMedia) {
 }
 
 TEST(WorldBuilder, WarnsOfScatteringAndOfOtherMedia) {
-    const BuiltScene built = buildWorld("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MakeNamedMedium \"smoke\" \"string type\" \"cloud\" "
-                                        "MediumInterface \"fog\" \"smoke\" Shape \"sphere\" LightSource \"infinite\"");
+    const BuiltScene built = buildWorld(
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" MakeNamedMedium \"smoke\" \"string type\" \"cloud\" "
+        "MediumInterface \"fog\" \"smoke\" Shape \"sphere\" LightSource \"infinite\"");
     EXPECT_TRUE(built.warnsOf("medium 'fog': scattering media come later: light is only absorbed"));
     EXPECT_TRUE(built.warnsOf("the medium type 'cloud' is not there yet"));
     ASSERT_EQ(built.scene.media.size(), 3u);

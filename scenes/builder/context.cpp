@@ -39,16 +39,19 @@ Rgb BuildContext::illuminant(const ParameterSet& parameters, std::string_view na
 float BuildContext::number(const ParameterSet& parameters, std::string_view name, float otherwise, float least,
                            float most) const {
     const float value = parameters.number(name, otherwise);
-    if (value >= least && value <= most) return value;   // not NaN
+    if (value >= least && value <= most) return value;  // not NaN
     const Parameter* p = parameters.findAny(name);
-    fail(p ? p->where : SourcePosition{}, fmt::format("{} is {}, outside the allowed range, {} to {}", name, value, least, most));
+    fail(p ? p->where : SourcePosition{},
+         fmt::format("{} is {}, outside the allowed range, {} to {}", name, value, least, most));
 }
 
-int BuildContext::integer(const ParameterSet& parameters, std::string_view name, int otherwise, int least, int most) const {
+int BuildContext::integer(const ParameterSet& parameters, std::string_view name, int otherwise, int least,
+                          int most) const {
     const int value = parameters.integer(name, otherwise);
     if (value >= least && value <= most) return value;
     const Parameter* p = parameters.findAny(name);
-    fail(p ? p->where : SourcePosition{}, fmt::format("{} is {}, outside the allowed range, {} to {}", name, value, least, most));
+    fail(p ? p->where : SourcePosition{},
+         fmt::format("{} is {}, outside the allowed range, {} to {}", name, value, least, most));
 }
 
 }  // namespace penumbra::builder

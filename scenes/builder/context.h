@@ -25,7 +25,8 @@ public:
     std::string position(SourcePosition where) const { return formatPosition(files(), where); }
     [[noreturn]] void fail(SourcePosition where, const std::string& text, ErrorKind kind = ErrorKind::BadData) const;
     void warn(SourcePosition where, const std::string& text);
-    /// The first time only for each `kind` of warning: what is not there yet is said once, not at every place that wants it.
+    /// The first time only for each `kind` of warning: what is not there yet is said once, not at every place that
+    /// wants it.
     void warnOnce(const std::string& kind, SourcePosition where, const std::string& text);
     /// Warns of parameters that nothing asked for; `owner` as in "shape 'sphere'".
     void warnUnused(const ParameterSet& parameters, const std::string& owner);
@@ -58,9 +59,13 @@ private:
     std::set<std::string> said_;
 };
 
-inline Spectrum<float> toSpectrum(Rgb c) { return {c.r, c.g, c.b}; }
+inline Spectrum<float> toSpectrum(Rgb c) {
+    return {c.r, c.g, c.b};
+}
 
 /// "shape 'sphere'".
-inline std::string ownerName(std::string_view what, std::string_view name) { return std::string(what) + " " + quote(name); }
+inline std::string ownerName(std::string_view what, std::string_view name) {
+    return std::string(what) + " " + quote(name);
+}
 
 }  // namespace penumbra::builder

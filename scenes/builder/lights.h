@@ -18,7 +18,7 @@ void addLightSources(const SceneDescription& scene, BuildContext& context, Light
 /// What an AreaLightSource says of any shape it is put on.
 struct AreaEmission {
     Rgb radiance{0, 0, 0};
-    float power = 0;              ///< where positive: of one primitive, instead of the radiance's size
+    float power = 0;  ///< where positive: of one primitive, instead of the radiance's size
     bool twoSided = false;
 
     /// Of a primitive of that area.
@@ -45,7 +45,7 @@ private:
 /// `geometry`, in world space.
 void addMeshLights(const AreaEmission& emission, const Geometry& geometry, LightTable& lights, ShapeRecord& shape);
 /// `worldFromObject` as in the quadric, in double.
-void addQuadricLight(const AreaEmission& emission, const QuadricRecord& quadric, const Matrix4& worldFromObject, LightTable& lights,
-                     ShapeRecord& shape);
+void addQuadricLight(const AreaEmission& emission, const QuadricRecord& quadric, const Matrix4& worldFromObject,
+                     LightTable& lights, ShapeRecord& shape);
 
 }  // namespace penumbra::builder

@@ -17,7 +17,9 @@ std::uint32_t lightFlags(const AreaEmission& emission, const ShapeRecord& shape)
     return (emission.twoSided ? kLightTwoSided : 0u) | (shape.flags & kShapeInvisible ? kLightUnmet : 0u);
 }
 
-Vec3<float> rounded(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
+Vec3<float> rounded(Vec3d v) {
+    return {float(v.x), float(v.y), float(v.z)};
+}
 
 /// One triangle of a shape, facing the way that hits of it do.
 struct LightTriangle {
@@ -27,9 +29,11 @@ struct LightTriangle {
 
     LightTriangle(const Geometry& g, const ShapeRecord& shape, std::uint32_t triangle) {
         const std::uint32_t* index = &g.indices[3 * std::size_t(shape.first + triangle)];
-        for (std::size_t i = 0; i < 3; ++i) corner[i] = at(g.positions, index[i]);
+        for (std::size_t i = 0; i < 3; ++i)
+            corner[i] = at(g.positions, index[i]);
         const auto edge = [&](std::size_t i) {
-            return Vec3<double>{double(corner[i].x) - corner[0].x, double(corner[i].y) - corner[0].y, double(corner[i].z) - corner[0].z};
+            return Vec3<double>{double(corner[i].x) - corner[0].x, double(corner[i].y) - corner[0].y,
+                                double(corner[i].z) - corner[0].z};
         };
         Vec3<double> n = cross(edge(1), edge(2));
         const double twice = std::sqrt(dot(n, n));
@@ -88,16 +92,20 @@ AreaEmission AreaLightLibrary::read(const Entity& entity) {
     emission.power = context_.number(p, "power", 0, -kMost, kMost);
     const float scale = context_.number(p, "scale", 1, 0, kMost);
     const std::string file = p.text("filename", "");
-    if (!file.empty() && BuildContext::findSpectrum(p, "L")) context_.fail(entity.where, owner + ": takes either L or an image, not both");
-    emission.radiance = (file.empty() ? context_.illuminant(p, "L", owner) : readImageMean(entity, file, owner)) * scale;
-    if (!(emission.radiance.largest() <= kMost)) context_.fail(entity.where, owner + ": the radiance is too large for a float");
+    if (!file.empty() && BuildContext::findSpectrum(p, "L"))
+        context_.fail(entity.where, owner + ": takes either L or an image, not both");
+    emission.radiance =
+        (file.empty() ? context_.illuminant(p, "L", owner) : readImageMean(entity, file, owner)) * scale;
+    if (!(emission.radiance.largest() <= kMost))
+        context_.fail(entity.where, owner + ": the radiance is too large for a float");
     context_.warnUnused(p, owner);
     return emission;
 }
 
 /// The image's mean; with a power, scaled to luminance 1, as the format divides by it.
 Rgb AreaLightLibrary::readImageMean(const Entity& entity, const std::string& file, const std::string& owner) {
-    context_.warnOnce("area light image", entity.where, owner + ": images on area lights are not there yet; their mean stands in for them");
+    context_.warnOnce("area light image", entity.where,
+                      owner + ": images on area lights are not there yet; their mean stands in for them");
     const Image image = context_.placed(entity.where, owner, [&] { return readImage(context_.path(file)); });
     std::array<double, 3> sum{};
     for (int y = 0; y < image.height(); ++y)
@@ -119,18 +127,20 @@ void addMeshLights(const AreaEmission& emission, const Geometry& geometry, Light
     shape.light = lights.size();
     if (const std::optional<RectangleShape> r = rectangleOf(geometry, shape)) {
         const LightTriangle half(geometry, shape, 0);
-        lights.add(RectangleLight::make(r->corner, r->edgeX, r->edgeY, half.facing, emission.radianceOf(half.area), flags));
+        lights.add(
+            RectangleLight::make(r->corner, r->edgeX, r->edgeY, half.facing, emission.radianceOf(half.area), flags));
         return;
     }
     shape.lightStride = 1;
     for (std::uint32_t i = 0; i < shape.count; ++i) {
         const LightTriangle t(geometry, shape, i);
-        lights.add(TriangleLight::make(t.corner[0], t.corner[1], t.corner[2], t.facing, emission.radianceOf(t.area), flags));
+        lights.add(
+            TriangleLight::make(t.corner[0], t.corner[1], t.corner[2], t.facing, emission.radianceOf(t.area), flags));
     }
 }
 
-void addQuadricLight(const AreaEmission& emission, const QuadricRecord& q, const Matrix4& worldFromObject, LightTable& lights,
-                     ShapeRecord& shape) {
+void addQuadricLight(const AreaEmission& emission, const QuadricRecord& q, const Matrix4& worldFromObject,
+                     LightTable& lights, ShapeRecord& shape) {
     const std::uint32_t flags = lightFlags(emission, shape);
     const bool flipped = shape.flags & kShapeFlipNormal;
     shape.light = lights.size();

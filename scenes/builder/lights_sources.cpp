@@ -16,13 +16,19 @@ constexpr float kMost = 1e30f;
 class SourceReader {
 public:
     SourceReader(const LightEntity& light, BuildContext& context, LightTable& lights)
-        : light_(light), parameters_(light.parameters), context_(context), lights_(lights), owner_(ownerName("light", light.type)) {}
+        : light_(light),
+          parameters_(light.parameters),
+          context_(context),
+          lights_(lights),
+          owner_(ownerName("light", light.type)) {}
 
     void addPoint() {
-        // The kinds of point light that have a shape of their own count as shining alike everywhere, with what flux they are given.
+        // The kinds of point light that have a shape of their own count as shining alike everywhere, with what flux
+        // they are given.
         const Vec3d p = transformPoint(light_.lightToWorld, point("from", {0, 0, 0}));
         const float power = number("power", 0);
-        const Rgb intensity = (light_.type == "projection" ? Rgb{1, 1, 1} : spectrum("I")) * scale() * (power > 0 ? power / (4 * kPi) : 1.f);
+        const Rgb intensity = (light_.type == "projection" ? Rgb{1, 1, 1} : spectrum("I")) * scale() *
+                              (power > 0 ? power / (4 * kPi) : 1.f);
         lights_.add(PointLight{rounded(p), toSpectrum(checked(intensity))});
     }
 
@@ -39,7 +45,8 @@ public:
     void addInfinite() {
         const std::string file = parameters_.text("filename", "");
         if (const Parameter* portal = parameters_.find("point3", "portal"))
-            context_.warnOnce("portal", portal->where, owner_ + ": portals are not there yet; the light comes from everywhere");
+            context_.warnOnce("portal", portal->where,
+                              owner_ + ": portals are not there yet; the light comes from everywhere");
         const float illuminance = number("illuminance", 0);
         if (!file.empty()) return addImage(file, illuminance);
         const Rgb radiance = spectrum("L") * scale() * (illuminance > 0 ? illuminance / kPi : 1.f);
@@ -54,14 +61,17 @@ private:
         const std::string path = context_.path(file);
         const Image image = context_.placed(light_.where, owner_, [&] { return readImage(path); });
         if (image.width() != image.height())
-            fail(fmt::format("the image {} has {} x {} pixels; it has to be square, in the equal-area octahedral map (imgtool of pbrt makes "
-                             "one of a latitude-longitude map)",
-                             quote(path, 200), image.width(), image.height()));
+            fail(
+                fmt::format("the image {} has {} x {} pixels; it has to be square, in the equal-area octahedral map "
+                            "(imgtool of pbrt makes "
+                            "one of a latitude-longitude map)",
+                            quote(path, 200), image.width(), image.height()));
         const std::vector<float> pixels = inFilmSpace(image);
         const float size = illuminance > 0 ? illuminance / upwardIlluminance(pixels, std::size_t(image.width())) : 1.f;
         const Rgb factor = checked(Rgb{1, 1, 1} * (scale() * size));
         context_.placed(light_.where, owner_, [&] {
-            lights_.add(ImageInfiniteLight::make(pixels, std::size_t(image.width()), toSpectrum(factor), light_.lightToWorld, lights_.tables));
+            lights_.add(ImageInfiniteLight::make(pixels, std::size_t(image.width()), toSpectrum(factor),
+                                                 light_.lightToWorld, lights_.tables));
         });
     }
 
@@ -85,7 +95,8 @@ private:
         for (std::size_t y = 0; y < n; ++y)
             for (std::size_t x = 0; x < n; ++x) {
                 const float* c = &pixels[3 * (y * n + x)];
-                const Vec3<float> d = equalAreaDirection(Vec2<float>{(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
+                const Vec3<float> d =
+                    equalAreaDirection(Vec2<float>{(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
                 const double luminance = context_.filmColorSpace().luminance({c[0], c[1], c[2]});
                 if (d.z > 0 && std::isfinite(luminance)) sum += luminance * d.z;
             }
@@ -94,7 +105,9 @@ private:
     }
 
     static Vec3<float> rounded(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
-    float number(const char* name, float otherwise) const { return context_.number(parameters_, name, otherwise, -kMost, kMost); }
+    float number(const char* name, float otherwise) const {
+        return context_.number(parameters_, name, otherwise, -kMost, kMost);
+    }
     float scale() const { return context_.number(parameters_, "scale", 1, 0, kMost); }
     Rgb spectrum(const char* name) const { return context_.illuminant(parameters_, name, owner_); }
     Rgb checked(Rgb c) const {
@@ -122,18 +135,23 @@ void addSource(const LightEntity& light, BuildContext& context, LightTable& ligh
     if (std::find(known.begin(), known.end(), light.type) == known.end())
         context.fail(light.where, "unknown light " + quote(light.type) + suggestion(light.type, known));
     SourceReader reader(light, context, lights);
-    if (light.type == "distant") reader.addDistant();
-    else if (light.type == "infinite") reader.addInfinite();
-    else reader.addPoint();
+    if (light.type == "distant")
+        reader.addDistant();
+    else if (light.type == "infinite")
+        reader.addInfinite();
+    else
+        reader.addPoint();
     if (light.type == "point" || light.type == "distant" || light.type == "infinite") return reader.finish();
-    context.warnOnce("light " + light.type, light.where, "the light " + quote(light.type) + " is not there yet; 'point' stands in for it");
+    context.warnOnce("light " + light.type, light.where,
+                     "the light " + quote(light.type) + " is not there yet; 'point' stands in for it");
     light.parameters.markAllUsed();
 }
 
 }  // namespace
 
 void addLightSources(const SceneDescription& scene, BuildContext& context, LightTable& lights) {
-    for (const LightEntity& light : scene.lights) addSource(light, context, lights);
+    for (const LightEntity& light : scene.lights)
+        addSource(light, context, lights);
 }
 
 }  // namespace penumbra::builder

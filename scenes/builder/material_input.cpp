@@ -4,7 +4,8 @@ namespace penumbra::builder {
 
 SpectrumInput SceneMaterialInput::albedo(std::string_view name, Rgb otherwise) {
     TextureOperand operand = TextureOperand::color(otherwise);
-    if (const Parameter* p = parameters().find("texture", name)) operand = textures_.spectrum(*p, SpectrumRole::Albedo);
+    if (const Parameter* p = parameters().find("texture", name))
+        operand = textures_.spectrum(*p, SpectrumRole::Albedo);
     else if (const Parameter* s = BuildContext::findSpectrum(parameters(), name))
         operand = TextureOperand::color(readSpectrumParameter(*s, SpectrumRole::Albedo, context_.spectra(), owner_));
     if (!operand.isConstant()) {
@@ -46,7 +47,8 @@ const Parameter* SceneMaterialInput::indexParameter(std::string_view name, Param
     if (!p) return BuildContext::findSpectrum(parameters(), name);
     const TextureOperand operand = textures_.spectrum(*p, SpectrumRole::Unbounded);
     if (!operand.isConstant()) {
-        context_.warnOnce("textured conductor", p->where, owner_ + ": textures as the index of a conductor are not there yet; copper stands in");
+        context_.warnOnce("textured conductor", p->where,
+                          owner_ + ": textures as the index of a conductor are not there yet; copper stands in");
         return nullptr;
     }
     storage = {.type = "rgb",

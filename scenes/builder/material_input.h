@@ -10,7 +10,8 @@ namespace penumbra::builder {
 class SceneMaterialInput final : public MaterialInput {
 public:
     /// All must outlive this object.
-    SceneMaterialInput(const Entity& entity, const std::string& owner, BuildContext& context, TextureLibrary& textures, MaterialTables& tables)
+    SceneMaterialInput(const Entity& entity, const std::string& owner, BuildContext& context, TextureLibrary& textures,
+                       MaterialTables& tables)
         : entity_(entity), owner_(owner), context_(context), textures_(textures), tables_(tables) {}
 
     SpectrumInput albedo(std::string_view name, Rgb otherwise) override;

@@ -18,14 +18,19 @@ struct MaterialStandIn {
     const char* name;
     const char* ours;
     std::vector<Renamed> parameters;
-    std::vector<Parameter> defaults;   ///< where they differ from those of the stand-in
+    std::vector<Parameter> defaults;  ///< where they differ from those of the stand-in
 };
 
 Parameter floatParameter(std::string name, float value) {
-    return {.type = "float", .name = std::move(name), .where = {}, .values = std::vector<float>{value}, .colorSpace = {}};
+    return {
+        .type = "float", .name = std::move(name), .where = {}, .values = std::vector<float>{value}, .colorSpace = {}};
 }
 Parameter greyParameter(std::string name, float value) {
-    return {.type = "rgb", .name = std::move(name), .where = {}, .values = std::vector<float>{value, value, value}, .colorSpace = "srgb"};
+    return {.type = "rgb",
+            .name = std::move(name),
+            .where = {},
+            .values = std::vector<float>{value, value, value},
+            .colorSpace = "srgb"};
 }
 
 const std::vector<MaterialStandIn>& materialStandIns() {
@@ -50,7 +55,10 @@ const std::vector<MaterialStandIn>& materialStandIns() {
           {"vroughness", "vroughness"},
           {"remaproughness", "remaproughness"}},
          {floatParameter("eta", 1.33f)}},
-        {"hair", "diffuse", {{"reflectance", "reflectance"}, {"color", "reflectance"}}, {greyParameter("reflectance", 0.25f)}},
+        {"hair",
+         "diffuse",
+         {{"reflectance", "reflectance"}, {"color", "reflectance"}},
+         {greyParameter("reflectance", 0.25f)}},
         {"measured", "diffuse", {}, {}},
     };
     return table;
@@ -58,7 +66,8 @@ const std::vector<MaterialStandIn>& materialStandIns() {
 
 const MaterialStandIn* findStandIn(const std::string& name) {
     const auto& table = materialStandIns();
-    const auto found = std::find_if(table.begin(), table.end(), [&](const MaterialStandIn& s) { return name == s.name; });
+    const auto found =
+        std::find_if(table.begin(), table.end(), [&](const MaterialStandIn& s) { return name == s.name; });
     return found == table.end() ? nullptr : &*found;
 }
 
@@ -68,14 +77,17 @@ bool isOurs(std::string_view type) {
 }
 
 /// "" and "none" are old words for "interface".
-std::string canonicalType(const std::string& type) { return type.empty() || type == "none" ? "interface" : type; }
+std::string canonicalType(const std::string& type) {
+    return type.empty() || type == "none" ? "interface" : type;
+}
 
 void checkType(const Entity& entity, const BuildContext& context) {
     const std::string type = canonicalType(entity.type);
     if (type == "mix" || isOurs(type) || findStandIn(type)) return;
     std::vector<std::string> known = pluginNames(MaterialTypes{});
     known.emplace_back("mix");
-    for (const MaterialStandIn& s : materialStandIns()) known.emplace_back(s.name);
+    for (const MaterialStandIn& s : materialStandIns())
+        known.emplace_back(s.name);
     context.fail(entity.where, "unknown material " + quote(entity.type) + suggestion(entity.type, known));
 }
 
@@ -111,9 +123,11 @@ bool isAnisotropic(const MaterialTable& table, MaterialHandle handle) {
 
 }  // namespace
 
-MaterialLibrary::MaterialLibrary(const SceneDescription& scene, BuildContext& context, TextureLibrary& textures, MaterialTable& table)
+MaterialLibrary::MaterialLibrary(const SceneDescription& scene, BuildContext& context, TextureLibrary& textures,
+                                 MaterialTable& table)
     : scene_(scene), context_(context), textures_(textures), table_(table) {
-    for (const Entity& m : scene.materials) checkType(m, context);
+    for (const Entity& m : scene.materials)
+        checkType(m, context);
     for (std::size_t i = 0; i < scene.namedMaterials.size(); ++i) {
         checkType(scene.namedMaterials[i], context);
         names_[scene.namedMaterials[i].name] = i;
@@ -131,12 +145,15 @@ SceneMaterial MaterialLibrary::getNamed(const std::string& name, SourcePosition 
     const auto found = names_.find(name);
     if (found == names_.end()) {
         std::vector<std::string> known;
-        for (const auto& entry : names_) known.push_back(entry.first);
+        for (const auto& entry : names_)
+            known.push_back(entry.first);
         context_.fail(where, "unknown material " + quote(name) + suggestion(name, known));
     }
     const auto [place, isNew] = named_.try_emplace(found->second);
-    if (isNew) place->second = make(scene_.namedMaterials[found->second], ownerName("material", name));
-    else if (!place->second) context_.fail(where, "the material " + quote(name) + " refers to itself");
+    if (isNew)
+        place->second = make(scene_.namedMaterials[found->second], ownerName("material", name));
+    else if (!place->second)
+        context_.fail(where, "the material " + quote(name) + " refers to itself");
     return *place->second;
 }
 
@@ -144,8 +161,9 @@ SceneMaterial MaterialLibrary::make(const Entity& entity, const std::string& own
     if (entity.type == "mix" && !isOurs("mix")) return makeMix(entity, owner);
     const MaterialStandIn* standIn = findStandIn(entity.type);
     if (!standIn || isOurs(entity.type)) return makeOurs(entity, owner);
-    context_.warnOnce("material " + entity.type, entity.where,
-                      fmt::format("the material '{}' is not there yet; '{}' stands in for it", standIn->name, standIn->ours));
+    context_.warnOnce(
+        "material " + entity.type, entity.where,
+        fmt::format("the material '{}' is not there yet; '{}' stands in for it", standIn->name, standIn->ours));
     entity.parameters.markAllUsed();
     return makeOurs(standInFor(entity, *standIn), owner);
 }
@@ -153,10 +171,12 @@ SceneMaterial MaterialLibrary::make(const Entity& entity, const std::string& own
 SceneMaterial MaterialLibrary::makeMix(const Entity& entity, const std::string& owner) {
     const Parameter* names = entity.parameters.find("string", "materials");
     if (!names || names->count() != 2) context_.fail(entity.where, owner + ": a mix needs the names of two materials");
-    context_.warnOnce("material mix", entity.where, "the material 'mix' is not there yet; the first of its two stands in for it");
+    context_.warnOnce("material mix", entity.where,
+                      "the material 'mix' is not there yet; the first of its two stands in for it");
     entity.parameters.markAllUsed();
     constexpr int kDeepest = 64;
-    if (++depth_ > kDeepest) context_.fail(entity.where, fmt::format("mixes within mixes are more than {} deep", kDeepest));
+    if (++depth_ > kDeepest)
+        context_.fail(entity.where, fmt::format("mixes within mixes are more than {} deep", kDeepest));
     const SceneMaterial first = getNamed(names->strings().front(), names->where);
     --depth_;
     return first;

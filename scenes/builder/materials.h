@@ -15,15 +15,16 @@ namespace penumbra::builder {
 /// A material as shapes need to know it.
 struct SceneMaterial {
     MaterialHandle handle;
-    bool passThrough = false;     ///< no surface: what is put on it does not shine
-    bool needsUv = false;         ///< some texture looks at uv
-    bool needsTangent = false;    ///< it is anisotropic
+    bool passThrough = false;   ///< no surface: what is put on it does not shine
+    bool needsUv = false;       ///< some texture looks at uv
+    bool needsTangent = false;  ///< it is anisotropic
 };
 
 class MaterialLibrary {
 public:
     /// All must outlive this object. Fails where a material is of a type that nobody knows.
-    MaterialLibrary(const SceneDescription& scene, BuildContext& context, TextureLibrary& textures, MaterialTable& table);
+    MaterialLibrary(const SceneDescription& scene, BuildContext& context, TextureLibrary& textures,
+                    MaterialTable& table);
 
     SceneMaterial get(const MaterialReference& reference);
 
@@ -39,7 +40,7 @@ private:
     TextureLibrary& textures_;
     MaterialTable& table_;
     std::map<std::string, std::size_t, std::less<>> names_;
-    std::map<std::size_t, Made> named_;                    ///< nothing: being made
+    std::map<std::size_t, Made> named_;  ///< nothing: being made
     std::map<int, SceneMaterial> unnamed_;
     int depth_ = 0;
 };

@@ -7,7 +7,8 @@ namespace penumbra::builder {
 MediumLibrary::MediumLibrary(const SceneDescription& scene, BuildContext& context, std::vector<MediumRecord>& table)
     : scene_(scene), context_(context), table_(table) {
     table_.assign(1, MediumRecord{});
-    for (std::size_t i = 0; i < scene.media.size(); ++i) names_[scene.media[i].name] = i;
+    for (std::size_t i = 0; i < scene.media.size(); ++i)
+        names_[scene.media[i].name] = i;
 }
 
 std::uint32_t MediumLibrary::row(const std::string& name, SourcePosition where) {
@@ -15,7 +16,8 @@ std::uint32_t MediumLibrary::row(const std::string& name, SourcePosition where) 
     const auto found = names_.find(name);
     if (found == names_.end()) {
         std::vector<std::string> known;
-        for (const auto& entry : names_) known.push_back(entry.first);
+        for (const auto& entry : names_)
+            known.push_back(entry.first);
         context_.fail(where, "unknown medium " + quote(name) + suggestion(name, known));
     }
     const auto [place, isNew] = rows_.try_emplace(found->second, 0);
@@ -41,7 +43,8 @@ MediumRecord MediumLibrary::makeHomogeneous(const NamedMediumEntity& entity) {
     const ParameterSet& p = entity.parameters;
     const std::string owner = ownerName("medium", entity.name);
     if (const Parameter* preset = p.find("string", "preset")) {
-        context_.warnOnce("medium preset", preset->where, "presets of media are not there yet; vacuum stands in for them");
+        context_.warnOnce("medium preset", preset->where,
+                          "presets of media are not there yet; vacuum stands in for them");
         p.markAllUsed();
         return {};
     }
@@ -52,7 +55,8 @@ MediumRecord MediumLibrary::makeHomogeneous(const NamedMediumEntity& entity) {
     constexpr float kMost = 1e30f;
     const float scale = context_.number(p, "scale", 1, 0, kMost);
     const Rgb absorption = coefficient("sigma_a") * scale, scattering = coefficient("sigma_s") * scale;
-    if (!(absorption.largest() <= kMost)) context_.fail(entity.where, owner + ": the absorption is too large for a float");
+    if (!(absorption.largest() <= kMost))
+        context_.fail(entity.where, owner + ": the absorption is too large for a float");
     if (scattering.largest() > 0)
         context_.warnOnce("scattering", entity.where, owner + ": scattering media come later: light is only absorbed");
     const Parameter* emission = BuildContext::findSpectrum(p, "Le");

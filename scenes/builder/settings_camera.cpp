@@ -19,7 +19,8 @@ CameraKind readKind(const CameraEntity& camera, BuildContext& context) {
 }
 
 /// x0 x1 y0 y1 of the picture on the plane z = 1.
-void readScreen(const CameraEntity& camera, const FilmSettings& film, bool otherAspect, const BuildContext& context, double screen[4]) {
+void readScreen(const CameraEntity& camera, const FilmSettings& film, bool otherAspect, const BuildContext& context,
+                double screen[4]) {
     const float shape = float(film.width) / float(film.height);
     const float given = context.number(camera.parameters, "frameaspectratio", shape, 1e-6f, 1e6f);
     const double aspect = otherAspect ? shape : given;
@@ -46,12 +47,13 @@ Matrix4 inverse(const Matrix4& m, SourcePosition where, const BuildContext& cont
 Shutter readShutter(const CameraEntity& camera, const BuildContext& context) {
     const float open = context.number(camera.parameters, "shutteropen", 0, -kMost, kMost);
     const float close = context.number(camera.parameters, "shutterclose", 1, -kMost, kMost);
-    if (!(close > open)) context.fail(camera.where, fmt::format("the shutter closes at {}, not after it opens at {}", close, open));
+    if (!(close > open))
+        context.fail(camera.where, fmt::format("the shutter closes at {}, not after it opens at {}", close, open));
     return {open, close};
 }
 
-CameraSettings readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, const BuildOptions& options,
-                          BuildContext& context) {
+CameraSettings readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film,
+                          const BuildOptions& options, BuildContext& context) {
     const CameraEntity& camera = scene.camera;
     const ParameterSet& p = camera.parameters;
     CameraSettings s;
@@ -59,8 +61,10 @@ CameraSettings readCamera(const SceneDescription& scene, Shutter shutter, const 
     s.width = film.width;
     s.height = film.height;
     if (s.kind == CameraKind::Perspective) s.fovDegrees = context.number(p, "fov", 90, 1e-4f, 179.99f);
-    const double askedWidth = scene.film.parameters.integer("xresolution", 1280), askedHeight = scene.film.parameters.integer("yresolution", 720);
-    const bool otherAspect = options.width > 0 && options.height > 0 && askedWidth * options.height != askedHeight * options.width;
+    const double askedWidth = scene.film.parameters.integer("xresolution", 1280),
+                 askedHeight = scene.film.parameters.integer("yresolution", 720);
+    const bool otherAspect =
+        options.width > 0 && options.height > 0 && askedWidth * options.height != askedHeight * options.width;
     readScreen(camera, film, otherAspect, context, s.screen);
     s.lensRadius = context.number(p, "lensradius", 0, 0, kMost);
     s.focalDistance = context.number(p, "focaldistance", 1e6f, 1e-30f, kMost);

@@ -8,8 +8,8 @@
 namespace penumbra::builder {
 namespace {
 
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 31;       // pixel numbers have 31 bits
-constexpr std::int64_t kMostFilmBytes = std::int64_t{1} << 34;    // 16 GiB
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 31;     // pixel numbers have 31 bits
+constexpr std::int64_t kMostFilmBytes = std::int64_t{1} << 34;  // 16 GiB
 constexpr std::int64_t kBytesPerPixel = sizeof(PixelSums) + sizeof(PixelSquares);
 
 /// The size that the scene file gives.
@@ -18,7 +18,7 @@ struct Resolution {
 };
 
 Resolution readResolution(const ParameterSet& film, const BuildContext& context) {
-    constexpr int kMost = std::numeric_limits<std::int32_t>::max();   // the product is checked, with the bytes, below
+    constexpr int kMost = std::numeric_limits<std::int32_t>::max();  // the product is checked, with the bytes, below
     return {context.integer(film, "xresolution", 1280, 1, kMost), context.integer(film, "yresolution", 720, 1, kMost)};
 }
 
@@ -26,19 +26,21 @@ Resolution readResolution(const ParameterSet& film, const BuildContext& context)
 template <class List>
 const List* four(const Parameter* p, const List& values, const BuildContext& context) {
     if (!p) return nullptr;
-    if (values.size() != 4) context.fail(p->where, fmt::format("{} needs 4 numbers, {} are given", p->name, values.size()));
+    if (values.size() != 4)
+        context.fail(p->where, fmt::format("{} needs 4 numbers, {} are given", p->name, values.size()));
     return &values;
 }
 
 /// A window of the picture in fractions of it, as pixels.
-CropWindow cropOf(const float x0, const float x1, const float y0, const float y1, Resolution r) {
+CropWindow cropOf(float x0, float x1, float y0, float y1, Resolution r) {
     // In float, as the format's own arithmetic, so that both agree on the last pixel.
     const auto pixel = [](float fraction, int size) { return int(std::ceil(fraction * float(size))); };
     return {pixel(x0, r.width), pixel(y0, r.height), pixel(x1, r.width), pixel(y1, r.height)};
 }
 
 CropWindow clipped(CropWindow c, Resolution r) {
-    return {std::clamp(c.x0, 0, r.width), std::clamp(c.y0, 0, r.height), std::clamp(c.x1, 0, r.width), std::clamp(c.y1, 0, r.height)};
+    return {std::clamp(c.x0, 0, r.width), std::clamp(c.y0, 0, r.height), std::clamp(c.x1, 0, r.width),
+            std::clamp(c.y1, 0, r.height)};
 }
 
 /// `asked`: the scene's resolution; `made`: the one to render at.
@@ -54,10 +56,9 @@ CropWindow readCrop(const ParameterSet& film, Resolution asked, Resolution made,
     } else if (bounds) {
         const std::vector<std::int32_t>& v = *four(bounds, bounds->ints(), context);
         crop = clipped({v[0], v[2], v[1], v[3]}, asked);
-        if (asked.width != made.width || asked.height != made.height)
-            crop = clipped(cropOf(float(crop.x0) / float(asked.width), float(crop.x1) / float(asked.width),
-                                  float(crop.y0) / float(asked.height), float(crop.y1) / float(asked.height), made),
-                           made);
+        const auto scaled = [](int pixel, int from, int to) { return int(std::ceil(double(pixel) * to / from)); };
+        crop = {scaled(crop.x0, asked.width, made.width), scaled(crop.y0, asked.height, made.height),
+                scaled(crop.x1, asked.width, made.width), scaled(crop.y1, asked.height, made.height)};
     }
     if (crop.width() <= 0 || crop.height() <= 0) {
         const Parameter* given = window ? window : bounds;
@@ -70,9 +71,12 @@ void checkSize(Resolution r, const CropWindow& crop, SourcePosition where, const
     const std::int64_t pixels = std::int64_t{r.width} * r.height;
     const std::int64_t cropPixels = std::int64_t{crop.width()} * crop.height();
     if (pixels <= kMostPixels && cropPixels <= kMostFilmBytes / kBytesPerPixel) return;
-    context.fail(where, fmt::format("a film of {} x {} pixels is too large: it would take {:.3g} bytes; at most {} pixels and {:.3g} "
-                                    "bytes are allowed",
-                                    r.width, r.height, double(cropPixels) * double(kBytesPerPixel), kMostPixels, double(kMostFilmBytes)));
+    context.fail(
+        where,
+        fmt::format("a film of {} x {} pixels is too large: it would take {:.3g} bytes; at most {} pixels and {:.3g} "
+                    "bytes are allowed",
+                    r.width, r.height, double(cropPixels) * double(kBytesPerPixel), kMostPixels,
+                    double(kMostFilmBytes)));
 }
 
 void checkType(const FilmEntity& film, BuildContext& context) {
@@ -81,8 +85,10 @@ void checkType(const FilmEntity& film, BuildContext& context) {
     if (std::find(known.begin(), known.end(), film.type) == known.end())
         context.fail(film.where, "unknown film " + quote(film.type) + suggestion(film.type, known));
     context.warn(film.where, "the film " + quote(film.type) + " is not there yet; it counts as 'rgb'");
-    for (const char* name : {"nbuckets"}) film.parameters.integer(name, 0);
-    for (const char* name : {"lambdamin", "lambdamax"}) film.parameters.number(name, 0);
+    for (const char* name : {"nbuckets"})
+        film.parameters.integer(name, 0);
+    for (const char* name : {"lambdamin", "lambdamax"})
+        film.parameters.number(name, 0);
     film.parameters.text("coordinatesystem", "");
 }
 
@@ -106,16 +112,17 @@ FilmSettings readFilm(const FilmEntity& film, Shutter shutter, const BuildOption
     settings.fileName = parameters.text("filename", settings.fileName);
     settings.colorSpace = context.filmColorSpace().name;
 
-    const FilmSensor sensor =
-        readFilmSensor(parameters, shutter.open, shutter.close, context.filmColorSpace(), context.files(), context.warnings());
+    const FilmSensor sensor = readFilmSensor(parameters, shutter.open, shutter.close, context.filmColorSpace(),
+                                             context.files(), context.warnings());
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t column = 0; column < 3; ++column)
             settings.sensorFromFilm[3 * row + column] = float(sensor.matrix.m[row][column] * sensor.imagingRatio);
     settings.maxComponent = parameters.number("maxcomponentvalue", kInfinity);
     if (!(settings.maxComponent > 0))
-        context.fail(parameters.findAny("maxcomponentvalue")->where, fmt::format("maxcomponentvalue {} is not above 0", settings.maxComponent));
-    parameters.boolean("savefp16", true);      // pictures are always written in full floats
-    parameters.number("diagonal", 35);         // matters to realistic cameras only
+        context.fail(parameters.findAny("maxcomponentvalue")->where,
+                     fmt::format("maxcomponentvalue {} is not above 0", settings.maxComponent));
+    parameters.boolean("savefp16", true);  // pictures are always written in full floats
+    parameters.number("diagonal", 35);     // matters to realistic cameras only
     context.warnUnused(parameters, ownerName("film", film.type));
     return settings;
 }
@@ -126,13 +133,17 @@ FilterSettings readFilter(const Entity& filter, BuildContext& context) {
         FilterKind kind;
         float radius;
     };
-    static constexpr Kind kKinds[] = {{"box", FilterKind::Box, 0.5f},           {"triangle", FilterKind::Triangle, 2},
-                                      {"gaussian", FilterKind::Gaussian, 1.5f}, {"mitchell", FilterKind::Mitchell, 2},
+    static constexpr Kind kKinds[] = {{"box", FilterKind::Box, 0.5f},
+                                      {"triangle", FilterKind::Triangle, 2},
+                                      {"gaussian", FilterKind::Gaussian, 1.5f},
+                                      {"mitchell", FilterKind::Mitchell, 2},
                                       {"sinc", FilterKind::Sinc, 4}};
-    const auto found = std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return filter.type == k.name; });
+    const auto found =
+        std::find_if(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return filter.type == k.name; });
     if (found == std::end(kKinds)) {
         std::vector<std::string> known;
-        for (const Kind& k : kKinds) known.emplace_back(k.name);
+        for (const Kind& k : kKinds)
+            known.emplace_back(k.name);
         context.fail(filter.where, "unknown pixel filter " + quote(filter.type) + suggestion(filter.type, known));
     }
     const ParameterSet& p = filter.parameters;

@@ -8,14 +8,14 @@
 namespace penumbra::builder {
 namespace {
 
-constexpr int kMostSamples = 1 << 30;   // what the film's sums are made for
+constexpr int kMostSamples = 1 << 30;  // what the film's sums are made for
 
 /// The format's samplers that others stand in for. All have the same expectation; only the noise differs.
 struct SamplerStandIn {
     const char* name;
     const char* ours;
-    bool samePoints;     ///< Sobol points as well: nothing worth a warning
-    bool powersOfTwo;    ///< rounds samples per pixel down
+    bool samePoints;   ///< Sobol points as well: nothing worth a warning
+    bool powersOfTwo;  ///< rounds samples per pixel down
 };
 constexpr SamplerStandIn kSamplerStandIns[] = {
     {"zsobol", "sobol", true, true},
@@ -28,8 +28,8 @@ constexpr SamplerStandIn kSamplerStandIns[] = {
 const SamplerStandIn* findStandIn(const std::string& name) {
     const std::vector<std::string> ours = pluginNames(SamplerTypes{});
     if (std::find(ours.begin(), ours.end(), name) != ours.end()) return nullptr;
-    const auto found =
-        std::find_if(std::begin(kSamplerStandIns), std::end(kSamplerStandIns), [&](const SamplerStandIn& s) { return name == s.name; });
+    const auto found = std::find_if(std::begin(kSamplerStandIns), std::end(kSamplerStandIns),
+                                    [&](const SamplerStandIn& s) { return name == s.name; });
     return found == std::end(kSamplerStandIns) ? nullptr : found;
 }
 
@@ -45,7 +45,8 @@ Sampler makeSceneSampler(const Entity& entity, SamplerInput& input, BuildContext
     const SamplerStandIn* standIn = findStandIn(entity.type);
     if (entity.parameters.findAny("pixelsamples")) {
         const int samples = context.integer(entity.parameters, "pixelsamples", 16, 1, kMostSamples);
-        if (standIn && standIn->powersOfTwo && input.samplesOverride == 0) input.samplesOverride = int(std::bit_floor(unsigned(samples)));
+        if (standIn && standIn->powersOfTwo && input.samplesOverride == 0)
+            input.samplesOverride = int(std::bit_floor(unsigned(samples)));
     }
     for (const char* name : {"xsamples", "ysamples"})
         if (entity.parameters.findAny(name)) context.integer(entity.parameters, name, 4, 1, 1 << 15);
@@ -53,7 +54,8 @@ Sampler makeSceneSampler(const Entity& entity, SamplerInput& input, BuildContext
     if (!makeSampler(standIn ? standIn->ours : entity.type, input, sampler))
         context.fail(entity.where, "unknown sampler " + quote(entity.type) + suggestion(entity.type, samplerNames()));
     if (standIn && !standIn->samePoints)
-        context.warn(entity.where, fmt::format("the sampler {} is not there yet; '{}' stands in for it", quote(entity.type), standIn->ours));
+        context.warn(entity.where, fmt::format("the sampler {} is not there yet; '{}' stands in for it",
+                                               quote(entity.type), standIn->ours));
     return sampler;
 }
 
@@ -61,7 +63,7 @@ Sampler makeSceneSampler(const Entity& entity, SamplerInput& input, BuildContext
 struct IntegratorRule {
     const char* name;
     const char* ours;
-    bool exists;         ///< else it is said that another stands in
+    bool exists;  ///< else it is said that another stands in
 };
 constexpr IntegratorRule kIntegrators[] = {
     {"path", "path", true},
@@ -80,30 +82,34 @@ constexpr IntegratorRule kIntegrators[] = {
 };
 
 const IntegratorRule* findIntegrator(const std::string& name) {
-    const auto found = std::find_if(std::begin(kIntegrators), std::end(kIntegrators), [&](const IntegratorRule& r) { return name == r.name; });
+    const auto found = std::find_if(std::begin(kIntegrators), std::end(kIntegrators),
+                                    [&](const IntegratorRule& r) { return name == r.name; });
     return found == std::end(kIntegrators) ? nullptr : found;
 }
 
-void readIntegratorParameters(const Entity& entity, const IntegratorRule& rule, IntegratorSettings& s, BuildContext& context) {
+void readIntegratorParameters(const Entity& entity, const IntegratorRule& rule, IntegratorSettings& s,
+                              BuildContext& context) {
     const ParameterSet& p = entity.parameters;
     const std::string ours = rule.ours;
     if (ours == "path") s.maxDepth = context.integer(p, "maxdepth", 5, 0, 1 << 30);
     if (ours == "path" || ours == "direct")
         // Others than these two select better than uniformly, as ours by power does.
-        s.lightSelection = p.text("lightsampler", "power") == "uniform" ? LightSelection::Uniform : LightSelection::Power;
+        s.lightSelection =
+            p.text("lightsampler", "power") == "uniform" ? LightSelection::Uniform : LightSelection::Power;
     if (ours == "ambientocclusion") {
         s.cosineSampling = p.boolean("cossample", true);
         s.maxDistance = p.number("maxdistance", kInfinity);
-        if (!(s.maxDistance > 0)) context.fail(p.findAny("maxdistance")->where, fmt::format("maxdistance {} is not above 0", s.maxDistance));
+        if (!(s.maxDistance > 0))
+            context.fail(p.findAny("maxdistance")->where, fmt::format("maxdistance {} is not above 0", s.maxDistance));
     }
     if (entity.type == "simplepath") {
-        // It has no roulette and no weights; both leave the expectation alone, but the strategies are what was asked for.
+        // It has no roulette and no weights; both leave the expectation alone, but the strategies are what was asked
+        // for.
         const bool lights = p.boolean("samplelights", true);
         p.boolean("samplebsdf", true);
         if (!lights) s.strategy = Strategy::BsdfOnly;
     }
-    if (p.boolean("regularize", false))
-        context.warn(entity.where, "regularize is not there yet and is ignored");
+    if (p.boolean("regularize", false)) context.warn(entity.where, "regularize is not there yet and is ignored");
     if (!rule.exists) p.markAllUsed();
     context.warnUnused(p, ownerName("integrator", entity.type));
 }
@@ -123,7 +129,8 @@ SamplerChoice readSampler(const SceneDescription& scene, const BuildOptions& opt
         SamplerInput other{none, input.samplesPerPixel};
         const SamplerStandIn* standIn = findStandIn(options.sampler);
         if (!makeSampler(standIn ? standIn->ours : options.sampler, other, choice.sampler))
-            throw Error(ErrorKind::Usage, "unknown sampler " + quote(options.sampler) + suggestion(options.sampler, samplerNames()));
+            throw Error(ErrorKind::Usage,
+                        "unknown sampler " + quote(options.sampler) + suggestion(options.sampler, samplerNames()));
         input.samplesPerPixel = other.samplesPerPixel;
     }
     choice.samplesPerPixel = input.samplesPerPixel;
@@ -135,7 +142,8 @@ IntegratorSettings readIntegrator(const Entity& entity, const BuildOptions& opti
     const IntegratorRule* rule = findIntegrator(entity.type);
     if (!rule) {
         std::vector<std::string> known;
-        for (const IntegratorRule& r : kIntegrators) known.emplace_back(r.name);
+        for (const IntegratorRule& r : kIntegrators)
+            known.emplace_back(r.name);
         context.fail(entity.where, "unknown integrator " + quote(entity.type) + suggestion(entity.type, known));
     }
     IntegratorSettings s;
@@ -143,9 +151,10 @@ IntegratorSettings readIntegrator(const Entity& entity, const BuildOptions& opti
     readIntegratorParameters(entity, *rule, s, context);
     if (!options.integrator.empty()) {
         const IntegratorRule* other = findIntegrator(options.integrator);
-        s.name = other ? other->ours : options.integrator;   // unknown ones are for whoever makes integrators to refuse
+        s.name = other ? other->ours : options.integrator;  // unknown ones are for whoever makes integrators to refuse
     } else if (!rule->exists) {
-        context.warn(entity.where, fmt::format("the integrator {} is not there yet; '{}' stands in for it", quote(entity.type), rule->ours));
+        context.warn(entity.where, fmt::format("the integrator {} is not there yet; '{}' stands in for it",
+                                               quote(entity.type), rule->ours));
     }
     s.maxDepth = options.maxDepth.value_or(s.maxDepth);
     s.roulette = options.roulette.value_or(s.roulette);
@@ -157,7 +166,8 @@ IntegratorSettings readIntegrator(const Entity& entity, const BuildOptions& opti
 void readOptions(const ParameterSet& options, BuildContext& context) {
     for (const char* name : {"disablepixeljitter", "disabletexturefiltering", "forcediffuse"}) {
         const Parameter* p = options.find("bool", name);
-        if (p && options.boolean(name, false)) context.warn(p->where, "the option " + quote(name) + " is not there yet and is ignored");
+        if (p && options.boolean(name, false))
+            context.warn(p->where, "the option " + quote(name) + " is not there yet and is ignored");
     }
 }
 

@@ -17,15 +17,18 @@ List take(ParameterSet& parameters, const char* type, const char* name) {
 MeshArrays takeMeshArrays(ParameterSet& p) {
     using Floats = std::vector<float>;
     using Integers = std::vector<std::int32_t>;
-    return {take<Floats>(p, "point3", "P"),  take<Floats>(p, "normal", "N"),       take<Floats>(p, "vector3", "S"),
-            take<Floats>(p, "point2", "uv"), take<Integers>(p, "integer", "indices"), take<Integers>(p, "integer", "faceIndices")};
+    return {take<Floats>(p, "point3", "P"),          take<Floats>(p, "normal", "N"),
+            take<Floats>(p, "vector3", "S"),         take<Floats>(p, "point2", "uv"),
+            take<Integers>(p, "integer", "indices"), take<Integers>(p, "integer", "faceIndices")};
 }
 
 TriangleMesh meshFromPatches(MeshArrays arrays, const std::string& where, Warnings& warnings) {
     if (arrays.indices.empty() && arrays.P.size() == 12) arrays.indices = {0, 1, 2, 3};
-    if (arrays.indices.empty()) throw Error(ErrorKind::BadData, where + ": \"indices\" are missing; they may be only with 4 points");
+    if (arrays.indices.empty())
+        throw Error(ErrorKind::BadData, where + ": \"indices\" are missing; they may be only with 4 points");
     if (const std::size_t surplus = arrays.indices.size() % 4) {
-        warnings.add(where + ": the number of \"indices\" is not a multiple of 4; the last " + std::to_string(surplus) + " are ignored");
+        warnings.add(where + ": the number of \"indices\" is not a multiple of 4; the last " + std::to_string(surplus) +
+                     " are ignored");
         arrays.indices.resize(arrays.indices.size() - surplus);
     }
     // A patch alone has its own parameters as uv.
@@ -34,7 +37,8 @@ TriangleMesh meshFromPatches(MeshArrays arrays, const std::string& where, Warnin
     std::vector<std::int32_t> triangles;
     triangles.reserve(arrays.indices.size() / 4 * 6);
     for (std::size_t i = 0; i < arrays.indices.size(); i += 4) {
-        const std::int32_t p00 = arrays.indices[i], p10 = arrays.indices[i + 1], p01 = arrays.indices[i + 2], p11 = arrays.indices[i + 3];
+        const std::int32_t p00 = arrays.indices[i], p10 = arrays.indices[i + 1], p01 = arrays.indices[i + 2],
+                           p11 = arrays.indices[i + 3];
         triangles.insert(triangles.end(), {p00, p10, p11, p00, p11, p01});
     }
     arrays.indices = std::move(triangles);

@@ -11,17 +11,21 @@ namespace penumbra::builder {
 namespace {
 
 const std::vector<std::string>& knownShapes() {
-    static const std::vector<std::string> known{"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "sphere", "disk", "cylinder", "curve"};
+    static const std::vector<std::string> known{"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv",
+                                                "sphere",       "disk",    "cylinder",     "curve"};
     return known;
 }
 
-bool isQuadric(const ShapeEntity& shape) { return shape.type == "sphere" || shape.type == "disk"; }
+bool isQuadric(const ShapeEntity& shape) {
+    return shape.type == "sphere" || shape.type == "disk";
+}
 
 /// Whether the geometric normal is the other one than the shape itself would have: its own orientation, and a mirrored
 /// object, which keeps the side that it had.
 bool flipsNormal(const ShapeEntity& shape, const ShapePlace& place) {
     const bool mirrored = determinant3(place.groupFromObject) < 0;
-    const bool reversedSurface = shape.type == "loopsubdiv";   // the format's subdivision surfaces face against their mesh
+    // The format's subdivision surfaces face against their control mesh.
+    const bool reversedSurface = shape.type == "loopsubdiv";
     return (shape.reverseOrientation != mirrored) != reversedSurface;
 }
 
@@ -37,9 +41,10 @@ bool isUsable(const AffineRecord& m) {
     for (const float x : m.m)
         if (!(std::fabs(x) < kLargestCoordinate)) return false;
     const auto at = [&](int r, int c) { return double(m.m[4 * r + c]); };
-    const double determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) - at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
+    const double determinant = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) -
+                               at(0, 1) * (at(1, 0) * at(2, 2) - at(1, 2) * at(2, 0)) +
                                at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
-    return std::fabs(determinant) > 1e-30 && std::fabs(determinant) < 1e30;
+    return std::fabs(determinant) > 1e-36 && std::fabs(determinant) < 1e36;
 }
 
 std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePlace& place) {
@@ -67,7 +72,9 @@ bool ShapeBuilder::isLeftOut(const ShapeEntity& shape) {
     if (std::find(known.begin(), known.end(), shape.type) == known.end())
         context_.fail(shape.where, "unknown shape " + quote(shape.type) + suggestion(shape.type, known));
     const bool leftOut = shape.type == "cylinder" || shape.type == "curve";
-    if (leftOut) context_.warnOnce("shape " + shape.type, shape.where, "the shape " + quote(shape.type) + " is not there yet and is left out");
+    if (leftOut)
+        context_.warnOnce("shape " + shape.type, shape.where,
+                          "the shape " + quote(shape.type) + " is not there yet and is left out");
     return leftOut;
 }
 
@@ -80,9 +87,11 @@ bool ShapeBuilder::buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltS
     if (!(out.record.flags & kShapeNeedsTangent)) mesh.tangents = {};
     if (!(place.groupFromObject == Matrix4{})) transform(mesh, place.groupFromObject);
     if (shape.reverseOrientation)
-        for (float& n : mesh.normals) n = -n;
+        for (float& n : mesh.normals)
+            n = -n;
     counts_.droppedTriangles += dropBadTriangles(mesh);
-    if (mesh.triangleCount() == 0) context_.warn(shape.where, ownerName("shape", shape.type) + ": no triangle is left of the mesh");
+    if (mesh.triangleCount() == 0)
+        context_.warn(shape.where, ownerName("shape", shape.type) + ": no triangle is left of the mesh");
     return mesh.triangleCount() != 0;
 }
 
@@ -91,12 +100,14 @@ TriangleMesh ShapeBuilder::readMesh(ShapeEntity& shape) {
     ParameterSet& p = shape.parameters;
     if (shape.type == "plymesh") return readPlyMesh(shape);
     if (shape.type == "bilinearmesh") {
-        context_.warnOnce("shape bilinearmesh", shape.where, "the shape 'bilinearmesh' is not there yet; triangles stand in for its patches");
+        context_.warnOnce("shape bilinearmesh", shape.where,
+                          "the shape 'bilinearmesh' is not there yet; triangles stand in for its patches");
         p.text("emissionfilename", "");
         return meshFromPatches(takeMeshArrays(p), where, context_.warnings());
     }
     if (shape.type == "loopsubdiv") {
-        context_.warnOnce("shape loopsubdiv", shape.where, "the shape 'loopsubdiv' is not there yet; its control mesh stands in for it");
+        context_.warnOnce("shape loopsubdiv", shape.where,
+                          "the shape 'loopsubdiv' is not there yet; its control mesh stands in for it");
         p.integer("levels", 3);
         p.text("scheme", "");
     }
@@ -110,7 +121,8 @@ TriangleMesh ShapeBuilder::readPlyMesh(const ShapeEntity& shape) {
     if (file.empty()) context_.fail(shape.where, owner + ": \"string filename\" is missing");
     p.number("edgelength", 1);
     if (const Parameter* displacement = p.find("texture", "displacement"))
-        context_.warnOnce("displacement", displacement->where, owner + ": displacement is not there yet and is ignored");
+        context_.warnOnce("displacement", displacement->where,
+                          owner + ": displacement is not there yet and is ignored");
     return context_.placed(shape.where, owner, [&] { return readPly(context_.path(file), context_.warnings()); });
 }
 
@@ -118,15 +130,17 @@ bool ShapeBuilder::buildQuadric(const ShapeEntity& shape, const ShapePlace& plac
     QuadricRecord& q = out.quadric;
     q = shape.type == "sphere" ? readSphere(shape) : readDisk(shape);
     out.record.kind = q.kind;
-    const bool isEmptyPart = !(q.phiMax > 0) || (q.kind == ShapeKind::Sphere ? !(q.zMax > q.zMin) : !(q.innerRadius < q.radius));
+    const bool isEmptyPart =
+        !(q.phiMax > 0) || (q.kind == ShapeKind::Sphere ? !(q.zMax > q.zMin) : !(q.innerRadius < q.radius));
     Matrix4 objectFromGroup;
     const bool invertible = invert(place.groupFromObject, objectFromGroup);
     q.worldFromObject = toRecord(place.groupFromObject);
     q.objectFromWorld = toRecord(objectFromGroup);
     const bool usable = invertible && isUsable(q.worldFromObject) && isUsable(q.objectFromWorld);
     if (isEmptyPart || !usable)
-        context_.warn(shape.where, ownerName("shape", shape.type) + (isEmptyPart ? ": nothing is left of it by its limits"
-                                                                                 : ": it is too large or too small to be seen, and left out"));
+        context_.warn(shape.where, ownerName("shape", shape.type) +
+                                       (isEmptyPart ? ": nothing is left of it by its limits"
+                                                    : ": it is too large or too small to be seen, and left out"));
     return !isEmptyPart && usable;
 }
 
@@ -168,7 +182,9 @@ float ShapeBuilder::readAlpha(const ShapeEntity& shape) {
         given = p.findAny("alpha");
     }
     if (alpha > 0 && alpha < 1)
-        context_.warnOnce("alpha", given->where, ownerName("shape", shape.type) + ": an alpha between 0 and 1 is not there yet and counts as 1");
+        context_.warnOnce(
+            "alpha", given->where,
+            ownerName("shape", shape.type) + ": an alpha between 0 and 1 is not there yet and counts as 1");
     return alpha;
 }
 
@@ -176,9 +192,12 @@ void ShapeBuilder::readEmission(const ShapeEntity& shape, const ShapePlace& plac
     if (shape.areaLight < 0) return;
     const std::string owner = ownerName("shape", shape.type);
     if (!place.mayShine)
-        return context_.warnOnce("moving light", shape.where, owner + ": shapes that move or stand in objects cannot be area lights; it does not shine");
+        return context_.warnOnce(
+            "moving light", shape.where,
+            owner + ": shapes that move or stand in objects cannot be area lights; it does not shine");
     if (out.material.passThrough)
-        return context_.warn(shape.where, owner + ": a shape with an interface material cannot be an area light; it does not shine");
+        return context_.warn(shape.where,
+                             owner + ": a shape with an interface material cannot be an area light; it does not shine");
     const AreaEmission& emission = lights_.get(shape.areaLight);
     if (!emission.isBlack()) out.emission = emission;
 }

@@ -11,9 +11,9 @@ namespace penumbra::builder {
 
 /// A shape that is ready for the geometry's tables.
 struct BuiltShape {
-    ShapeRecord record;                  ///< kind, flags and media; of quadrics and meshes alike
+    ShapeRecord record;  ///< kind, flags and media; of quadrics and meshes alike
     SceneMaterial material;
-    TriangleMesh mesh;                   ///< where record.kind is Mesh
+    TriangleMesh mesh;  ///< where record.kind is Mesh
     QuadricRecord quadric;
     Matrix4 groupFromObject;
     std::optional<AreaEmission> emission;
@@ -22,7 +22,7 @@ struct BuiltShape {
 /// Where a shape stands.
 struct ShapePlace {
     Matrix4 groupFromObject;
-    bool mayShine = true;      ///< it stands still in the world: neither moving nor in an object
+    bool mayShine = true;  ///< it stands still in the world: neither moving nor in an object
 };
 
 struct ShapeCounts {
@@ -33,7 +33,8 @@ struct ShapeCounts {
 class ShapeBuilder {
 public:
     /// All must outlive this object.
-    ShapeBuilder(BuildContext& context, TextureLibrary& textures, MaterialLibrary& materials, MediumLibrary& media, AreaLightLibrary& lights)
+    ShapeBuilder(BuildContext& context, TextureLibrary& textures, MaterialLibrary& materials, MediumLibrary& media,
+                 AreaLightLibrary& lights)
         : context_(context), textures_(textures), materials_(materials), media_(media), lights_(lights) {}
 
     /// Takes the directive apart. Nothing where nothing of it can be seen.

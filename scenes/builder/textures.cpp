@@ -10,23 +10,30 @@ namespace {
 /// The format's textures that are not there yet, and what stands in: one of their own parameters, else a grey.
 struct TextureStandIn {
     const char* name;
-    const char* parameter;   ///< null: the constant
+    const char* parameter;  ///< null: the constant
     float otherwise;
 };
 constexpr TextureStandIn kStandIns[] = {
-    {"mix", "tex1", 0.f},       {"directionmix", "tex1", 0.f},  {"bilerp", "v00", 0.f},      {"dots", "inside", 1.f},   {"fbm", nullptr, 0.5f},
-    {"wrinkled", nullptr, 0.5f}, {"windy", nullptr, 0.5f},      {"marble", nullptr, 0.5f},   {"ptex", nullptr, 0.5f},
+    {"mix", "tex1", 0.f},     {"directionmix", "tex1", 0.f}, {"bilerp", "v00", 0.f},
+    {"dots", "inside", 1.f},  {"fbm", nullptr, 0.5f},        {"wrinkled", nullptr, 0.5f},
+    {"windy", nullptr, 0.5f}, {"marble", nullptr, 0.5f},     {"ptex", nullptr, 0.5f},
 };
 
 const TextureStandIn* findStandIn(const std::string& name) {
-    const auto found = std::find_if(std::begin(kStandIns), std::end(kStandIns), [&](const TextureStandIn& s) { return name == s.name; });
+    const auto found = std::find_if(std::begin(kStandIns), std::end(kStandIns),
+                                    [&](const TextureStandIn& s) { return name == s.name; });
     return found == std::end(kStandIns) ? nullptr : found;
 }
 
 class SceneTextureInput final : public TextureInput {
 public:
-    SceneTextureInput(const TextureEntity& texture, std::optional<SpectrumRole> role, TextureLibrary& library, BuildContext& context)
-        : texture_(texture), role_(role), library_(library), context_(context), owner_(ownerName("texture", texture.name)) {}
+    SceneTextureInput(const TextureEntity& texture, std::optional<SpectrumRole> role, TextureLibrary& library,
+                      BuildContext& context)
+        : texture_(texture),
+          role_(role),
+          library_(library),
+          context_(context),
+          owner_(ownerName("texture", texture.name)) {}
 
     TextureKind kind() const override { return role_ ? TextureKind::Spectrum : TextureKind::Float; }
     SpectrumRole role() const override { return role_.value_or(SpectrumRole::Unbounded); }
@@ -68,7 +75,8 @@ TextureLibrary::TextureLibrary(const SceneDescription& scene, BuildContext& cont
         (t.isFloat ? floats_ : spectra_)[t.name] = i;
         if (Textures::knows(t.type) || findStandIn(t.type)) continue;
         std::vector<std::string> known = pluginNames(TextureTypes{});
-        for (const TextureStandIn& s : kStandIns) known.emplace_back(s.name);
+        for (const TextureStandIn& s : kStandIns)
+            known.emplace_back(s.name);
         context.fail(t.where, "unknown texture class " + quote(t.type) + suggestion(t.type, known));
     }
 }
@@ -87,9 +95,11 @@ std::size_t TextureLibrary::find(const Parameter& reference, bool isFloat) const
     if (const auto found = names.find(name); found != names.end()) return found->second;
     const std::string kind = isFloat ? "float" : "spectrum";
     if ((isFloat ? spectra_ : floats_).contains(name))
-        context_.fail(reference.where, fmt::format("{} needs a {} texture, and {} is one of the other kind", quote(reference.name), kind, quote(name)));
+        context_.fail(reference.where, fmt::format("{} needs a {} texture, and {} is one of the other kind",
+                                                   quote(reference.name), kind, quote(name)));
     std::vector<std::string> known;
-    for (const auto& entry : names) known.push_back(entry.first);
+    for (const auto& entry : names)
+        known.push_back(entry.first);
     context_.fail(reference.where, fmt::format("unknown {} texture {}{}", kind, quote(name), suggestion(name, known)));
 }
 
@@ -100,7 +110,8 @@ TextureOperand TextureLibrary::get(Use use, SourcePosition where) {
         if (!place->second) context_.fail(where, "the texture " + quote(texture.name) + " refers to itself");
         return *place->second;
     }
-    if (++depth_ > kDeepest) context_.fail(where, fmt::format("textures within textures are more than {} deep", kDeepest));
+    if (++depth_ > kDeepest)
+        context_.fail(where, fmt::format("textures within textures are more than {} deep", kDeepest));
     const TextureOperand operand = make(texture, use.role);
     --depth_;
     place->second = operand;
@@ -114,7 +125,8 @@ TextureOperand TextureLibrary::make(const TextureEntity& texture, std::optional<
                           fmt::format("the texture class '{}' is not there yet; {} stands in for it", standIn->name,
                                       standIn->parameter ? fmt::format("its '{}'", standIn->parameter) : "a grey"));
         texture.parameters.markAllUsed();
-        return standIn->parameter ? input.value(standIn->parameter, standIn->otherwise) : TextureOperand::number(standIn->otherwise);
+        return standIn->parameter ? input.value(standIn->parameter, standIn->otherwise)
+                                  : TextureOperand::number(standIn->otherwise);
     }
     const TextureOperand operand = table_.add(texture.type, input);
     context_.warnUnused(texture.parameters, ownerName("texture", texture.name));

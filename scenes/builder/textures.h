@@ -1,5 +1,5 @@
-// TextureLibrary: the textures of a scene file by name. A texture is made when something first uses it, once for every role
-// under which it is used.
+// TextureLibrary: the textures of a scene file by name. A texture is made when something first uses it, once for every
+// role under which it is used.
 //
 // Hostile input: textures that refer to themselves, and chains deeper than kDeepest, are errors.
 // Thread safety: none; one instance belongs to one build.
@@ -27,8 +27,8 @@ public:
 
 private:
     struct Use {
-        std::size_t texture = 0;                       ///< index into the scene's textures
-        std::optional<SpectrumRole> role;              ///< none: a float texture
+        std::size_t texture = 0;           ///< index into the scene's textures
+        std::optional<SpectrumRole> role;  ///< none: a float texture
         auto operator<=>(const Use&) const = default;
     };
     std::size_t find(const Parameter& reference, bool isFloat) const;
@@ -39,7 +39,7 @@ private:
     BuildContext& context_;
     Textures& table_;
     std::map<std::string, std::size_t, std::less<>> floats_, spectra_;
-    std::map<Use, std::optional<TextureOperand>> made_;   ///< nothing: being made
+    std::map<Use, std::optional<TextureOperand>> made_;  ///< nothing: being made
     int depth_ = 0;
 };
 

@@ -8,14 +8,17 @@ namespace {
 /// The motion of a part that moves within something that is placed or moves itself.
 std::vector<Matrix4> composed(const TransformPair& outer, const TransformPair& inner) {
     if (outer.animated() && inner.animated()) return motionMatrices(outer.start * inner.start, outer.end * inner.end);
-    std::vector<Matrix4> motion = outer.animated() ? motionMatrices(outer.start, outer.end) : motionMatrices(inner.start, inner.end);
-    for (Matrix4& m : motion) m = outer.animated() ? m * inner.start : outer.start * m;
+    std::vector<Matrix4> motion =
+        outer.animated() ? motionMatrices(outer.start, outer.end) : motionMatrices(inner.start, inner.end);
+    for (Matrix4& m : motion)
+        m = outer.animated() ? m * inner.start : outer.start * m;
     return motion;
 }
 
 std::map<std::string, std::size_t, std::less<>> objectNames(const SceneDescription& description) {
     std::map<std::string, std::size_t, std::less<>> names;
-    for (std::size_t i = 0; i < description.objects.size(); ++i) names[description.objects[i].name] = i;
+    for (std::size_t i = 0; i < description.objects.size(); ++i)
+        names[description.objects[i].name] = i;
     return names;
 }
 
@@ -35,19 +38,21 @@ void WorldBuilder::add(SceneDescription& description) {
     description.shapes = {};
 
     const auto names = objectNames(description);
-    std::map<std::size_t, Object> objects;   // only of those that are used
+    std::map<std::size_t, Object> objects;  // only of those that are used
     for (const ObjectInstance& instance : description.instances) {
         const auto found = names.find(instance.name);
         if (found == names.end()) {
             std::vector<std::string> known;
-            for (const auto& entry : names) known.push_back(entry.first);
+            for (const auto& entry : names)
+                known.push_back(entry.first);
             context_.fail(instance.where, "unknown object " + quote(instance.name) + suggestion(instance.name, known));
         }
         const auto [place, isNew] = objects.try_emplace(found->second);
         if (isNew) place->second = addObject(description.objects[found->second]);
         const TransformPair& to = instance.instanceToWorld;
         addInstance(place->second.still, motionMatrices(to.start, to.end), instance.where);
-        for (const MovingPart& part : place->second.moving) addInstance(part.group, composed(to, part.motion), instance.where);
+        for (const MovingPart& part : place->second.moving)
+            addInstance(part.group, composed(to, part.motion), instance.where);
     }
     description.objects = {};
 }
@@ -61,7 +66,8 @@ std::size_t WorldBuilder::addGroup(std::vector<BuiltShape> shapes) {
 /// The shape stays in its object space, where what mirrors it is the motion.
 std::size_t WorldBuilder::addMovingGroup(ShapeEntity&& shape) {
     std::vector<BuiltShape> shapes;
-    if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {Matrix4{}, false})) shapes.push_back(std::move(*built));
+    if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {Matrix4{}, false}))
+        shapes.push_back(std::move(*built));
     return addGroup(std::move(shapes));
 }
 
@@ -81,7 +87,7 @@ WorldBuilder::Object WorldBuilder::addObject(ObjectDefinition& definition) {
 }
 
 void WorldBuilder::addInstance(std::size_t group, const std::vector<Matrix4>& motion, SourcePosition where) {
-    if (group == 0) return;   // nothing to be seen
+    if (group == 0) return;  // nothing to be seen
     InstanceRecord record;
     record.group = std::uint32_t(group);
     record.firstMatrix = std::uint32_t(scene_.geometry.matrices.size());
@@ -103,10 +109,12 @@ void WorldBuilder::finish() {
     g.groups.assign(groups_.size(), {});
     for (std::size_t i = 0; i < groups_.size(); ++i) {
         g.groups[i] = {std::uint32_t(g.shapes.size()), std::uint32_t(groups_[i].shapes.size())};
-        for (BuiltShape& shape : groups_[i].shapes) append(shape);
+        for (BuiltShape& shape : groups_[i].shapes)
+            append(shape);
         groups_[i] = {};
     }
-    for (InstanceRecord& instance : g.instances) instance.firstShape = g.groups[instance.group].firstShape;
+    for (InstanceRecord& instance : g.instances)
+        instance.firstShape = g.groups[instance.group].firstShape;
     g.finish();
     scene_.facts.shapes = g.shapes.size();
     scene_.facts.instances = g.instances.size();
@@ -155,8 +163,10 @@ void WorldBuilder::append(BuiltShape& shape) {
     record.mediumOutside = shape.record.mediumOutside;
     record.material = scene_.materials.id(shape.material.handle);
     if (shape.emission) {
-        if (isMesh) addMeshLights(*shape.emission, g, scene_.lights, record);
-        else addQuadricLight(*shape.emission, shape.quadric, shape.groupFromObject, scene_.lights, record);
+        if (isMesh)
+            addMeshLights(*shape.emission, g, scene_.lights, record);
+        else
+            addQuadricLight(*shape.emission, shape.quadric, shape.groupFromObject, scene_.lights, record);
     }
     g.shapes.push_back(record);
 }

@@ -1,10 +1,10 @@
 // World: all shapes of a scene, those of objects and moving ones included, into the tables of the geometry.
 //
-// What stands still in the world is baked into group 0. An object becomes a group of the shapes that stand still in it; a
-// moving shape, of the world or of an object, is a group of its own. Groups are placed by instances, one level deep, so an
-// instance of a moving shape of an object carries the product of both motions.
-// Memory: shapes are gathered first, so that the tables are made once, at their size; a mesh is freed as it is appended.
-// Thread safety: none; one instance belongs to one build.
+// What stands still in the world is baked into group 0. An object becomes a group of the shapes that stand still in it;
+// a moving shape, of the world or of an object, is a group of its own. Groups are placed by instances, one level deep,
+// so an instance of a moving shape of an object carries the product of both motions. Memory: shapes are gathered first,
+// so that the tables are made once, at their size; a mesh is freed as it is appended. Thread safety: none; one instance
+// belongs to one build.
 #pragma once
 
 #include "scenes/builder/shapes.h"
@@ -14,7 +14,8 @@ namespace penumbra::builder {
 class WorldBuilder {
 public:
     /// All must outlive this object.
-    WorldBuilder(BuildContext& context, ShapeBuilder& shapes, Scene& scene) : context_(context), shapes_(shapes), scene_(scene) {}
+    WorldBuilder(BuildContext& context, ShapeBuilder& shapes, Scene& scene)
+        : context_(context), shapes_(shapes), scene_(scene) {}
 
     /// Takes the shapes out of the description. REQUIRES: called once.
     void add(SceneDescription& description);
@@ -31,7 +32,7 @@ private:
         TransformPair motion;
     };
     struct Object {
-        std::size_t still = 0;             ///< group; 0: none
+        std::size_t still = 0;  ///< group; 0: none
         std::vector<MovingPart> moving;
     };
 
