@@ -52,7 +52,15 @@ PictureError pictureError(const Film& film) {
     const double mean = film.pixelCount() ? sum / double(3 * film.pixelCount()) : 0;
     if (known) result.rootMeanSquare = std::sqrt(squares / double(known));
     if (mean > 0) result.relative = result.rootMeanSquare / mean;
+    result.isKnown = known > 0;
     return result;
+}
+
+std::string errorText(const PictureError& error) {
+    if (!error.isKnown) return "unknown: it takes two samples a pixel";
+    std::string text = fmt::format("{:.2g} % of the mean", 100 * error.relative);
+    if (error.unknownPixels) text += fmt::format(", unknown in {} pixels", error.unknownPixels);
+    return text;
 }
 
 RenderStatistics statisticsOf(const RenderJob& job) {
@@ -86,13 +94,12 @@ std::string statisticsText(const RenderStatistics& s) {
                                        bytesText(double(s.geometryBytes)), bytesText(double(s.textureBytes)),
                                        bytesText(double(s.peakMemoryBytes))));
     text += line("invalid samples", std::to_string(s.counts.invalid));
-    std::string error = fmt::format("{:.3g} ({:.3g} % of the mean)", s.error.rootMeanSquare, 100 * s.error.relative);
-    if (s.error.unknownPixels) error += fmt::format("; unknown in {} pixels", s.error.unknownPixels);
-    text += line("standard error", error);
+    text += line("standard error", errorText(s.error));
     return text;
 }
 
 std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
+    const auto known = [&](double e) { return s.error.isKnown ? nlohmann::ordered_json(e) : nlohmann::ordered_json(); };
     const nlohmann::ordered_json json = {
         {"schema", 1},
         {"recipe", nlohmann::ordered_json::parse(recipeJson(job))},
@@ -108,7 +115,7 @@ std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
          {{"film", s.filmBytes}, {"geometry", s.geometryBytes}, {"textures", s.textureBytes}, {"peak_rss", s.peakMemoryBytes}}},
         {"invalid_samples", s.counts.invalid},
         {"standard_error",
-         {{"rms", s.error.rootMeanSquare}, {"relative", s.error.relative}, {"unknown_pixels", s.error.unknownPixels}}},
+         {{"rms", known(s.error.rootMeanSquare)}, {"relative", known(s.error.relative)}, {"unknown_pixels", s.error.unknownPixels}}},
     };
     return json.dump();
 }

@@ -15,8 +15,11 @@ struct PictureError {
     double rootMeanSquare = 0;
     double relative = 0;             ///< to the mean of the picture; 0 for a black one
     std::uint64_t unknownPixels = 0; ///< pixels with a channel of unknown error
+    bool isKnown = false;            ///< of any pixel
 };
 PictureError pictureError(const Film& film);
+/// "1.2 % of the mean".
+std::string errorText(const PictureError& error);
 
 struct RenderStatistics {
     RenderTimes times;

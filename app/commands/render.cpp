@@ -101,11 +101,9 @@ void reportInvalid(const RenderJob& job) {
 
 void reportPicture(const RenderJob& job, const std::string& path, const std::string& through, const RenderStatistics& statistics) {
     const CropWindow& crop = job.film().crop();
-    std::string text = fmt::format("wrote {}: {}x{}, {} samples per pixel in {:.2f} s", pathText(path), crop.width(), crop.height(),
-                                   job.scene().samplesPerPixel, statistics.times.render);
-    if (statistics.error.unknownPixels < job.film().pixelCount())
-        text += fmt::format(", standard error {:.2g} % of the mean", 100 * statistics.error.relative);
-    printNote(text);
+    const int samples = job.scene().samplesPerPixel;
+    printNote(fmt::format("wrote {}: {}x{}, {} sample{} per pixel in {:.2f} s; standard error (rms) {}", pathText(path), crop.width(),
+                          crop.height(), samples, samples == 1 ? "" : "s", statistics.times.render, errorText(statistics.error)));
     if (!through.empty()) printNote("colours went through " + through);
 }
 
@@ -147,7 +145,10 @@ void renderPicture(RenderJob& job, const RenderRequest& request, const std::stri
 
 void runRender(const RenderRequest& request) {
     checkRequest(request);
-    if (request.outfile) checkPicturePath(*request.outfile);
+    if (request.outfile) {
+        checkKeepsInputs(*request.outfile, {.texts = {request.options.scene}, .assets = {}, .hash = ""});
+        checkPicturePath(*request.outfile);
+    }
     const ThreadLimit threads(chooseThreads(request.threads));
     Warnings warnings(request.strict);
     WarningPrinter printer(warnings, request.quiet);
@@ -182,7 +183,7 @@ void addOutput(Arguments& arguments, RenderRequest& r) {
                            "what the render took: for people on standard error, as JSON on standard output");
     arguments.text("--progress", "FORM", "none, or JSON lines: json (on standard output), json:DESCRIPTOR (default: a bar or lines for people)",
                    [&r](const std::string& t) { setProgress(r, t); });
-    arguments.flag("--strict", r.strict, "warnings are errors, and so are samples that are not finite");
+    arguments.flag("--strict", r.strict, "warnings are errors, and so are samples that are not finite (the picture is then still written)");
 }
 
 void addSampling(Arguments& arguments, RenderRequest& r) {
