@@ -2,9 +2,11 @@
 //
 // What stands still in the world is baked into group 0. An object becomes a group of the shapes that stand still in it;
 // a moving shape, of the world or of an object, is a group of its own. Groups are placed by instances, one level deep,
-// so an instance of a moving shape of an object carries the product of both motions. Memory: shapes are gathered first,
-// so that the tables are made once, at their size; a mesh is freed as it is appended. Thread safety: none; one instance
-// belongs to one build.
+// so an instance of a moving shape of an object carries the product of both motions.
+//
+// Memory: shapes are gathered first, so that the tables are made once, at their size; a mesh is freed as it is appended.
+//
+// Thread safety: none; one instance belongs to one build.
 #pragma once
 
 #include "scenes/builder/shapes.h"
