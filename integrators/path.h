@@ -141,8 +141,11 @@ private:
         UInt<F> id;
         F pick;
         scene.lightSampler.pick(scene.sampler.template get1<F>(g.address, step.vertex, Dim::LightPick), id, pick);
+        // From where rays leave, not from the point itself: both strategies have to see the light from one place. (From a
+        // sphere's own inside, rounding puts the point itself inside or outside at random.)
+        const Vec3<F> from = offsetOrigin(at.p, at.error, at.ng, -g.direction);
         const LightSample<F> light =
-            sampleLight<F>(scene.lights, id, at.p, scene.sampler.get2<F>(g.address, step.vertex, Dim::LightPosition));
+            sampleLight<F>(scene.lights, id, from, scene.sampler.get2<F>(g.address, step.vertex, Dim::LightPosition));
         Mask<F> wanted = lit & light.valid;
         if (strategy_ == Strategy::BsdfOnly) wanted = wanted & light.delta;
         if (none(wanted)) return;
