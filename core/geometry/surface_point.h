@@ -79,6 +79,19 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
     const UInt<F> flags = shape(&ShapeRecord::flags);
     const Mask<F> flip = (flags & UInt<F>(kShapeFlipNormal)) != UInt<F>(0u);
     const Vec3<F> faceNormal = cross(e1, e2);
+    // Nor may a ray start beyond an edge, where the next face of a closed room is behind it: points keep off the edges by
+    // their error. With n the face normal (twice the area long), barycentric b is b |n| / |edge| away from its edge.
+    const Vec3<F> e3 = e2 - e1;
+    const F longestSquared = max(dot(e1, e1), max(dot(e2, e2), dot(e3, e3)));
+    const F normalSquared = dot(faceNormal, faceNormal);
+    const F nearest = max(min(b0, min(b1, b2)), F(0.f));
+    const Mask<F> onEdge = nearest * nearest * normalSquared < largest * largest * longestSquared;
+    if (any(onEdge)) {
+        // Towards the centroid, which is a third of the height away from each edge.
+        const F part = min(F(3.f) * largest * sqrt(longestSquared / normalSquared), F(1.f));
+        const Vec3<F> centroid = (p0 + p1 + p2) * F(1.f / 3.f);
+        s.p = select(onEdge, s.p + (centroid - s.p) * part, s.p);
+    }
     s.ng = flipSign(flip, faceNormal);
     s.ns = s.ng;
     const UInt<F> normalShift = shape(&ShapeRecord::normalShift);
