@@ -4,6 +4,7 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/version.h>
 
 #ifdef PENUMBRA_TSAN
@@ -33,18 +34,22 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& task
     char begin, end;
     __tsan_release(&begin);
 #endif
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
+    // An arena of its own: that of the calling thread never has more workers than the machine has processors.
+    tbb::task_arena arena(ThreadLimit::current());
+    arena.execute([&] {
+        tbb::parallel_for(
+            tbb::blocked_range<std::size_t>(0, count, 1),
+            [&](const tbb::blocked_range<std::size_t>& range) {
 #ifdef PENUMBRA_TSAN
-            __tsan_acquire(&begin);
+                __tsan_acquire(&begin);
 #endif
-            for (std::size_t i = range.begin(); i != range.end(); ++i) task(i);
+                for (std::size_t i = range.begin(); i != range.end(); ++i) task(i);
 #ifdef PENUMBRA_TSAN
-            __tsan_release(&end);
+                __tsan_release(&end);
 #endif
-        },
-        tbb::simple_partitioner());
+            },
+            tbb::simple_partitioner());
+    });
 #ifdef PENUMBRA_TSAN
     __tsan_acquire(&end);
 #endif
