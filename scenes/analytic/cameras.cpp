@@ -84,6 +84,7 @@ void addFilters(std::vector<AnalyticScene>& scenes) {
     const auto lanczos = [](double x) { return sinc(x) * sinc(x / 3); };
     scenes.push_back(edge("D4 sinc", R"("sinc" "float xradius" [ 4 ] "float yradius" [ 4 ] "float tau" [ 3 ])",
                           .5 + integrate(0, t, lanczos) / (2 * integrate(0, 4, lanczos))));
+    scenes.back().samplesPerPixel = 1024;
 }
 
 /// A lens of radius .1 at the origin, focused at z = 2, looking along +z at a window of +-`halfWidth` at z = 1.
@@ -107,7 +108,7 @@ void addLenses(std::vector<AnalyticScene>& scenes) {
          .claim = "a disk light of .2 of the blur's radius: (.2)^2 all over the middle of its blur",
          .text = sceneText({.camera = lens(.014), .maxDepth = 0}, emitter(1, disk(.02, {0, 0, 4}, Facing::Negative))),
          .expected = grey(.04),
-         .samplesPerPixel = 512});
+         .samplesPerPixel = 1024});
     scenes.push_back(
         {.id = "D12",
          .claim = "defocus keeps the sum of the picture of a flat emitter: area / 4 over the window in focus",
@@ -137,6 +138,7 @@ void addShutters(std::vector<AnalyticScene>& scenes) {
     const std::string shade = scoped(kMoveByTen + kShade);
     scenes.push_back(moving("D7", "an edge moves 10 pixels while the shutter is open; pixel 3..4: .35", .35, shade));
     scenes.push_back(moving("D8", "the same, pixel 0..1: .05", .05, shade, pixelColumn(0)));
+    scenes.back().samplesPerPixel = 2048;
     scenes.push_back(
         moving("D7 instance", "the same, the moving thing an instance", .35,
                "ObjectBegin \"shade\"\n" + kShade + "ObjectEnd\n" + scoped(kMoveByTen + "ObjectInstance \"shade\"\n")));

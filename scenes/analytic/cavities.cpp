@@ -61,6 +61,7 @@ void addFurnaces(std::vector<AnalyticScene>& scenes) {
     scenes.push_back(exactly(furnace("A2 one bounce", kSphereInside, .5, .5, 1)));
     scenes.push_back(furnace("A1 box .8", cubeInside(), .8, 1, 120));
     scenes.push_back(furnace("A1 sphere .95", kSphereInside, .95, 1, 400));
+    scenes.back().samplesPerPixel = 128;
 
     AnalyticScene coloured = furnace("A1 coloured", cubeInside(), .8, 1, 120);
     coloured.claim = "closed cavity, every wall emits 1 and reflects (.2, .5, .8): 1 / (1 - rho) per channel";
@@ -114,9 +115,10 @@ void addIntegratingSpheres(std::vector<AnalyticScene>& scenes) {
             {.camera = viewInside(), .maxDepth = 60},
             fmt::format("LightSource \"point\" \"rgb I\" {}\n", spectrumOf(kPi)) + diffuse(.5) + kSphereInside),
         .expected = grey(1),
-        .samplesPerPixel = 4};
+        .samplesPerPixel = 16};
     scenes.push_back(lamp);
     lamp.id = "A4 exact";
+    lamp.samplesPerPixel = 4;
     lamp.roulette = false;
     lamp.exact = true;
     scenes.push_back(lamp);

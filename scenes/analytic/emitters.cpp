@@ -101,7 +101,7 @@ void addRectangles(std::vector<AnalyticScene>& scenes) {
     AnalyticScene direct = centred;
     direct.id = "B7b direct";
     direct.text =
-        sceneText({.camera = viewOfOrigin(), .integrator = "direct"},
+        sceneText({.camera = viewOfOrigin(), .maxDepth = kNoDepth, .integrator = "direct"},
                   diffuse(kRho) + floorSquare(.1) + emitter(1, rectangleZ(-1, 1, -1, 1, 1, Facing::Negative)));
     scenes.push_back(direct);
 

@@ -126,10 +126,11 @@ void addBoundaries(std::vector<AnalyticScene>& scenes) {
     }
 }
 
-/// Glass between z = 0 and z = -1, all interreflections, seen along the normal.
+/// Glass between z = 0 and z = -1, all interreflections, seen along the normal. (No wider than need be: rays leave a wall
+/// at a distance in proportion to its corners' coordinates, which the absorbing slab would lack.)
 void addSlabs(std::vector<AnalyticScene>& scenes) {
     const std::string slab =
-        rectangleZ(-50, 50, -50, 50, 0, Facing::Positive) + rectangleZ(-50, 50, -50, 50, -1, Facing::Negative);
+        rectangleZ(-5, 5, -5, 5, 0, Facing::Positive) + rectangleZ(-5, 5, -5, 5, -1, Facing::Negative);
     const std::string behind = emitter(1, rectangleZ(-5, 5, -5, 5, -2, Facing::Positive));
     const std::string before = emitter(1, rectangleZ(-5, 5, -5, 5, 2, Facing::Negative));
     const double r = fresnel(1, kIor), a = std::exp(-1.);
@@ -170,9 +171,11 @@ void addSlabs(std::vector<AnalyticScene>& scenes) {
 }
 
 /// Diffuse light on a boundary. A small white receiver in a plate that emits 1 sees the plate again in a boundary above
-/// it; or it sees a sky through that boundary. The plates are so large that their ends do not matter.
+/// it; or it sees a sky through that boundary, the plate being black. The plates are so large that their ends do not
+/// matter.
 void addDiffuseFresnel(std::vector<AnalyticScene>& scenes) {
-    const std::string plate = emitter(1, rectangleZ(-1e4, 1e4, -1e4, 1e4, -1e-3, Facing::Positive));
+    const std::string plateShape = rectangleZ(-1e4, 1e4, -1e4, 1e4, -1e-3, Facing::Positive);
+    const std::string plate = emitter(1, plateShape), blackPlate = scoped(black() + plateShape);
     const std::string receiver = diffuse(1) + floorSquare(.005);
     const auto add = [&](const std::string& id, const std::string& claim, const std::string& lights, Facing outside,
                          double value) {
@@ -186,8 +189,8 @@ void addDiffuseFresnel(std::vector<AnalyticScene>& scenes) {
     add("F8", "diffuse reflectance of glass from outside (Walsh)", plate, Facing::Negative,
         diffuseFresnelOutside(kIor));
     scenes.back().samplesPerPixel = 2048;
-    add("F8 transmitted", "diffuse transmittance of glass from outside, sky beyond: (1 - F) / n^2", constantSky(1),
-        Facing::Negative, (1 - diffuseFresnelOutside(kIor)) / (kIor * kIor));
+    add("F8 transmitted", "diffuse transmittance of glass from outside, sky beyond: (1 - F) / n^2",
+        constantSky(1) + blackPlate, Facing::Negative, (1 - diffuseFresnelOutside(kIor)) / (kIor * kIor));
     add("F9", "diffuse reflectance of glass from inside", plate, Facing::Positive, diffuseFresnelInside(kIor));
     scenes.back().samplesPerPixel = 256;
 }
