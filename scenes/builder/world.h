@@ -4,7 +4,8 @@
 // a moving shape, of the world or of an object, is a group of its own. Groups are placed by instances, one level deep,
 // so an instance of a moving shape of an object carries the product of both motions.
 //
-// Memory: shapes are gathered first, so that the tables are made once, at their size; a mesh is freed as it is appended.
+// Memory: shapes are gathered first, so that the tables are made once, at their size; a mesh is freed as it is
+// appended.
 //
 // Thread safety: none; one instance belongs to one build.
 #pragma once
