@@ -173,21 +173,44 @@ TEST_F(RenderCommand, ThreadsComeFromTheSchedulerWhereNobodyAsks) {
     EXPECT_NE(threads("SLURM_CPUS_PER_TASK", "seven", {}), 7);
 }
 
+TEST_F(RenderCommand, InvalidSamplesAreReportedWithTheCommandsThatReplayThem) {
+    // A light beyond the range of the film's sums.
+    const std::string bright = folder.file("bright.pbrt", "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 3\n"
+                                                          "Sampler \"sobol\" \"integer pixelsamples\" 2\nWorldBegin\n"
+                                                          "LightSource \"infinite\" \"rgb L\" [1e30 1e30 1e30]\n");
+    const std::vector<std::string> arguments{"render", bright, "-o", folder.path("a.exr")};
+    const ProgramRun run = runProgram(arguments);
+    EXPECT_EQ(run.code, 0);
+    EXPECT_TRUE(contains(run.err, "warning: 24 of 24 samples were not finite")) << run.err;
+    EXPECT_TRUE(contains(run.err, "  penumbra render " + bright + " --pixel 0,0 --sample 1\n")) << run.err;
+    EXPECT_TRUE(contains(run.err, "and 20 more")) << run.err;
+    EXPECT_EQ(recipeOf(readExr(folder.path("a.exr"))).at("invalid_samples"), 24);
+    EXPECT_EQ((*readExr(folder.path("a.exr")).find("R"))[0], 0.f);
+
+    const ProgramRun replay = runProgram({"render", bright, "--pixel", "0,0", "--sample", "1"});
+    EXPECT_EQ(replay.out, "nan nan nan\n");
+    EXPECT_TRUE(contains(replay.err, "invalid")) << replay.err;
+    std::vector<std::string> strict = arguments;
+    strict.push_back("--strict");
+    EXPECT_EQ(runProgram(strict).code, 65);
+}
+
 /// Minutes of work, to be interrupted.
 std::vector<std::string> longRender(const std::string& scene, const std::string& picture) {
     return {"render", scene, "-o", picture, "--spp", "65536", "--resolution", "640x480", "-t", "1"};
 }
 
-void waitForProgress(const StartedProgram& program) {
+/// Waits until that is true, for a minute at most.
+void waitUntil(const std::function<bool()>& isTrue) {
     using namespace std::chrono_literals;
-    for (int i = 0; i < 600 && !contains(program.errSoFar(), "Progress:"); ++i) std::this_thread::sleep_for(50ms);
+    for (int i = 0; i < 1200 && !isTrue(); ++i) std::this_thread::sleep_for(50ms);
 }
 
 TEST_F(RenderCommand, SignalsEndItWithNoPictureAndNothingLeftBehind) {
     for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
         folder.file("a.exr", "the old picture");
         StartedProgram program(longRender(scene, folder.path("a.exr")));
-        waitForProgress(program);
+        waitUntil([&] { return contains(program.errSoFar(), "Progress:"); });
         program.signal(signal);
         const ProgramRun run = program.wait();
         EXPECT_EQ(run.code, code) << run.err;
@@ -195,6 +218,18 @@ TEST_F(RenderCommand, SignalsEndItWithNoPictureAndNothingLeftBehind) {
         EXPECT_EQ(readBytes(folder.path("a.exr")), "the old picture");
         EXPECT_TRUE(leftovers(folder.path("")).empty());
     }
+}
+
+TEST_F(RenderCommand, ASignalWhileTheSceneIsReadEndsItAtOnce) {
+    ProgramSurroundings endless;   // a pipe that nobody closes or writes to
+    endless.inChild = [] {
+        int ends[2];
+        if (::pipe(ends) != 0 || ::dup2(ends[0], STDIN_FILENO) < 0) ::_exit(126);
+    };
+    StartedProgram program({"render", "-", "-o", folder.path("a.exr")}, endless);
+    waitUntil([&] { return program.handles(SIGTERM); });
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.wait().code, 143);
 }
 
 TEST_F(RenderCommand, AFileLimitIsAWriteErrorAndKeepsTheOldPicture) {

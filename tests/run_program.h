@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -43,6 +44,17 @@ public:
     StartedProgram& operator=(const StartedProgram&) = delete;
 
     void signal(int number) const { ::kill(process_, number); }
+    /// The program has come so far that it has a handler for the signal.
+    bool handles(int number) const {
+        std::ifstream status("/proc/" + std::to_string(process_) + "/status");
+        for (std::string word; status >> word;)
+            if (word == "SigCgt:") {
+                std::uint64_t caught = 0;
+                status >> std::hex >> caught;
+                return caught >> (number - 1) & 1;
+            }
+        return false;
+    }
     std::string errSoFar() const { return readBytes(files_.path("err")); }
 
     ProgramRun wait() {
