@@ -39,6 +39,9 @@ install(FILES "${PROJECT_BINARY_DIR}/PenumbraConfig.cmake" "${PROJECT_BINARY_DIR
               "${PROJECT_SOURCE_DIR}/cmake/PenumbraDependencies.cmake"
     DESTINATION "${package_folder}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES "${PROJECT_SOURCE_DIR}/docs/penumbra.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+install(FILES "${PROJECT_SOURCE_DIR}/docs/completion/penumbra.bash" RENAME penumbra
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
 
 if(PENUMBRA_TESTS AND NOT PENUMBRA_SANITIZE)
     set(headers ${PENUMBRA_PUBLIC_HEADERS} core/base/version.h)
