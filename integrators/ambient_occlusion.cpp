@@ -16,7 +16,7 @@ public:
     template <class F, class M>
     void shade(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const UInt<F>&) const noexcept {
         const SurfacePoint<F> at = surfacePoint(step.scene.geometry, hit, g.origin, g.direction, g.time);
-        const Vec2<F> u = step.scene.sampler.template get2<F>(g.address, step.vertex, Dim::Direction);
+        const Vec2<F> u = step.scene.sampler.template at<F>(g.address, step.vertex).get2(Dim::Direction);
         Vec3<F> w = cosine_ ? cosineHemisphere(u) : uniformSphere(u);
         w.z = abs(w.z);
         const F weight = cosine_ ? F(1.f) : F(2.f) * w.z;   // cos / pi over the density

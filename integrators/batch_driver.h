@@ -42,9 +42,17 @@ struct Step {
     void shadow(const RayGroup<F>& g, const Vec3<F>& origin, const Vec3<F>& direction, F far, const Spectrum<F>& value,
                 const Mask<F>& wanted) {
         const unsigned keep = bits(Mask<F>(wanted & g.live));
-        if (keep) pushShadow(batch, origin, direction, far, value, g.slot, keep);
+        if (!keep) return;
+        ShadowBuffer& s = batch.shadows;
+        const int n = batch.shadowCount;
+        const F row[8] = {origin.x, origin.y, origin.z, far, direction.x, direction.y, direction.z, floatFromBits(g.slot)};
+        storeRows8(s.rows[n], ShadowBuffer::kStride, row, keep);
+        storePacked(s.r + n, value.r, keep);
+        storePacked(s.g + n, value.g, keep);
+        storePacked(s.b + n, value.b, keep);
+        batch.shadowCount = n + std::popcount(keep);
     }
-    void go(const RayGroup<F>& g, const NextRay<F>& ray, const Mask<F>& wanted) {
+    void go(const RayGroup<F>& g, const PathRay<F>& ray, const Mask<F>& wanted) {
         // Embree aborts on rays that are not finite (or beyond 1.8e18); such a path becomes an invalid sample.
         const Vec3<F> o = abs(ray.origin), d = abs(ray.direction);
         const Mask<F> sound = (maxComponent(o) < F(1e18f)) & (o.x + o.y + o.z < F(1e19f)) & (d.x + d.y + d.z < F(2.f));
@@ -53,7 +61,9 @@ struct Step {
             for (unsigned left = broken; left; left &= left - 1)
                 batch.slots.r[lane(g.slot, std::countr_zero(left))] = std::numeric_limits<float>::quiet_NaN();
         const unsigned keep = bits(Mask<F>(going & sound));
-        if (keep) pushRay(batch, nextCount, ray, keep);
+        if (!keep) return;
+        ray.store(batch.next(), nextCount, keep);
+        nextCount += std::popcount(keep);
     }
 };
 
@@ -61,26 +71,17 @@ namespace detail {
 
 template <class F>
 RayGroup<F> gatherGroup(const PathBatch& batch, const RayBuffer& r, const UInt<F>& at, int liveCount, bool hasMotion) {
-    RayGroup<F> g;
-    g.origin = {gather(r.originX, at), gather(r.originY, at), gather(r.originZ, at)};
-    g.direction = {gather(r.directionX, at), gather(r.directionY, at), gather(r.directionZ, at)};
-    g.throughput = {gather(r.throughputR, at), gather(r.throughputG, at), gather(r.throughputB, at)};
-    g.bsdfPdf = gather(r.bsdfPdf, at);
-    g.etaScale = gather(r.etaScale, at);
-    g.coneWidth = gather(r.coneWidth, at);
-    g.slot = gather(r.slot, at);
-    g.depth = gather(r.depth, at);
-    g.medium = gather(r.medium, at);
-    g.time = hasMotion ? gather(batch.slots.time, g.slot) : F(0.f);
+    RayGroup<F> g{PathRay<F>::load(r, at), F(0.f), {}, firstLanes<F>(liveCount)};
+    if (hasMotion) g.time = gather(batch.slots.time, g.slot);
     g.address = {gather(batch.slots.seed, g.slot), gather(batch.slots.index, g.slot)};
-    g.live = firstLanes<F>(liveCount);
-    g.liveBits = bits(g.live);
     return g;
 }
 
 template <class F>
 Hit<F> gatherHit(const HitBuffer& h, const UInt<F>& at) {
-    return {gather(h.geometry, at), gather(h.primitive, at), gather(h.instance, at), gather(h.u, at), gather(h.v, at), gather(h.t, at)};
+    F row[8];
+    loadRows8(h.rows[0], at * UInt<F>(HitBuffer::kStride), row);
+    return {floatBits(row[0]), floatBits(row[1]), floatBits(row[2]), row[3], row[4], row[5]};
 }
 
 /// Lane k of a group of `count` live rays, or of the last live one.
@@ -138,18 +139,18 @@ private:
 
     void cameraRays(int at) {
         SlotBuffer& s = batch_.slots;
-        RayBuffer& r = batch_.rays[0];
         const UInt<F> slot = UInt<F>(std::uint32_t(at)) + laneIndices<F>();
         // The number of a pixel is that of the whole picture, so a crop renders the same samples.
         const F x = load<F>(s.rasterX + at), y = load<F>(s.rasterY + at);
         const UInt<F> pixel = toUInt(y) * UInt<F>(std::uint32_t(scene_.film.width)) + toUInt(x);
         const SampleAddress<F> a = addressOf<F>(pixel, load<F>(s.sample + at), std::uint32_t(film_.replicates()), scene_.seed);
-        const FilterSample<F> f = scene_.filter.sample(scene_.sampler.get2<F>(a, 0, Dim::Filter));
+        const auto numbers = scene_.sampler.at<F>(a, 0);
+        const FilterSample<F> f = scene_.filter.sample(numbers.get2(Dim::Filter));
         const Vec2<F> raster = {x + F(0.5f) + f.offset.x, y + F(0.5f) + f.offset.y};
         Vec2<F> lens = {F(0.5f), F(0.5f)};
-        if (scene_.camera.usesLens()) lens = scene_.sampler.get2<F>(a, 0, Dim::Lens);
+        if (scene_.camera.usesLens()) lens = numbers.get2(Dim::Lens);
         F shutter = F(0.5f);
-        if (scene_.hasMotion) shutter = scene_.sampler.get1<F>(a, 0, Dim::Time);
+        if (scene_.hasMotion) shutter = numbers.get1(Dim::Time);
         const CameraRay<F> ray = scene_.camera.ray(raster, lens, shutter);
         store(s.seed + at, a.seed);
         store(s.index + at, a.index);
@@ -157,22 +158,13 @@ private:
         store(s.sign + at, f.sign);
         for (float* v : {s.r + at, s.g + at, s.b + at}) store(v, F(0.f));
         store(s.covered + at, UInt<F>(0u));
-        store(r.originX + at, ray.origin.x);
-        store(r.originY + at, ray.origin.y);
-        store(r.originZ + at, ray.origin.z);
-        store(r.directionX + at, ray.direction.x);
-        store(r.directionY + at, ray.direction.y);
-        store(r.directionZ + at, ray.direction.z);
-        for (float* v : {r.throughputR + at, r.throughputG + at, r.throughputB + at, r.etaScale + at}) store(v, F(1.f));
-        store(r.bsdfPdf + at, F(0.f));
-        store(r.coneWidth + at, ray.coneWidth);
-        store(r.slot + at, slot);
-        store(r.depth + at, UInt<F>(0u));
-        store(r.medium + at, UInt<F>(scene_.cameraMedium));
+        const PathRay<F> first{ray.origin, ray.direction, Spectrum<F>::constant(F(1.f)), F(0.f), F(1.f), ray.coneWidth, slot, UInt<F>(0u),
+                               UInt<F>(scene_.cameraMedium)};
+        first.store(batch_.rays[0], at, (1u << W) - 1u);
     }
 
     void step(std::uint32_t vertex) {
-        traceNearest();
+        traceNearest(vertex == 1);
         sortByMaterial();
         Step<F> step{scene_, batch_, vertex, 0};
         batch_.shadowCount = 0;
@@ -211,73 +203,70 @@ private:
         }
     }
 
-    void traceNearest() {
-        RayBuffer& r = batch_.now();
-        HitBuffer& h = batch_.hits;
+    /// `fromCamera`: neighbours are samples of one pixel, so their packets are coherent.
+    void traceNearest(bool fromCamera) {
+        const RayBuffer& r = batch_.now();
         counts_.rays += std::uint64_t(batch_.live);
         for (int i = 0; i < batch_.live; i += W) {
             const int n = batch_.live - i < W ? batch_.live - i : W;
+            const unsigned live = (1u << n) - 1u;
             RayHitPacket p;
-            const UInt<F> slot = load<F>(r.slot + i);
-            fillPacket(p.ray, {load<F>(r.originX + i), load<F>(r.originY + i), load<F>(r.originZ + i)},
-                       {load<F>(r.directionX + i), load<F>(r.directionY + i), load<F>(r.directionZ + i)}, F(kInfinity), slot, n);
+            F row[8];
+            loadRows8(r.rows[i], laneIndices<F>() * UInt<F>(RayBuffer::kStride), row);
+            fillPacket(p.ray, row, F(kInfinity), n);
             store(p.hit.geometry, UInt<F>(kNoHit));
             store(p.hit.instance, UInt<F>(kNoHit));
-            const unsigned live = (1u << n) - 1u;
             if (controls_.recorder) controls_.recorder->nearest(p, live);
-            scene_.accelerator.intersect(p, live);
+            scene_.accelerator.intersect(p, live, fromCamera ? Coherence::Coherent : Coherence::Incoherent);
+
             const UInt<F> geometry = load<F>(p.hit.geometry), instance = load<F>(p.hit.instance);
-            store(h.geometry + i, geometry);
-            store(h.instance + i, instance);
-            store(h.primitive + i, load<F>(p.hit.primitive));
-            store(h.u + i, load<F>(p.hit.u));
-            store(h.v + i, load<F>(p.hit.v));
-            store(h.t + i, load<F>(p.ray.far));
-            // The material decides the order of shading.
             const Mask<F> met = geometry != UInt<F>(kNoHit);
-            const Hit<F> hit{select(met, geometry, UInt<F>(0u)), UInt<F>(0u), select(met, instance, UInt<F>(kNone)), F(0.f), F(0.f), F(0.f)};
-            UInt<F> key = UInt<F>(missKey());
+            UInt<F> shape(0u), key(missKey());
             if (any(met)) {
-                const UInt<F> shape = detail::shapeOf(scene_.geometry, hit);
+                shape = shapeOf<F>(scene_.geometry, select(met, geometry, UInt<F>(0u)), select(met, instance, UInt<F>(kNone)));
                 key = select(met, Records<F, ShapeRecord>(scene_.geometry.shapes.data(), shape)(&ShapeRecord::material), key);
             }
-            store(batch_.key + i, key);
+            store(batch_.key + i, key);   // decides the order of shading
+            const F hit[8] = {floatFromBits(shape), load<F>(reinterpret_cast<const float*>(p.hit.primitive)), floatFromBits(instance),
+                              load<F>(p.hit.u), load<F>(p.hit.v), load<F>(p.ray.far), F(0.f), F(0.f)};
+            storeRows8(batch_.hits.rows[i], HitBuffer::kStride, hit, live);
         }
     }
 
     void traceShadows() {
-        ShadowBuffer& s = batch_.shadows;
+        const ShadowBuffer& s = batch_.shadows;
+        SlotBuffer& slots = batch_.slots;
         counts_.shadowRays += std::uint64_t(batch_.shadowCount);
         for (int i = 0; i < batch_.shadowCount; i += W) {
             const int n = batch_.shadowCount - i < W ? batch_.shadowCount - i : W;
-            const UInt<F> slot = load<F>(s.slot + i);
-            RayPacket p;
-            fillPacket(p, {load<F>(s.originX + i), load<F>(s.originY + i), load<F>(s.originZ + i)},
-                       {load<F>(s.directionX + i), load<F>(s.directionY + i), load<F>(s.directionZ + i)}, load<F>(s.far + i), slot, n);
             const unsigned live = (1u << n) - 1u;
+            RayPacket p;
+            F row[8];
+            loadRows8(s.rows[i], laneIndices<F>() * UInt<F>(ShadowBuffer::kStride), row);
+            fillPacket(p, row, row[3], n);
             if (controls_.recorder) controls_.recorder->shadow(p, live);
             scene_.accelerator.occluded(p, live);
-            const unsigned open = bits(Mask<F>(load<F>(p.far) >= F(0.f))) & live;
-            for (unsigned left = open; left; left &= left - 1) {
-                const int k = i + std::countr_zero(left);
-                const std::uint32_t to = s.slot[k];
-                batch_.slots.r[to] += s.r[k];
-                batch_.slots.g[to] += s.g[k];
-                batch_.slots.b[to] += s.b[k];
+            for (unsigned open = bits(Mask<F>(load<F>(p.far) >= F(0.f))) & live; open; open &= open - 1) {
+                const int k = i + std::countr_zero(open);
+                const std::uint32_t to = floatBits(s.rows[k][7]);
+                slots.r[to] += s.r[k];
+                slots.g[to] += s.g[k];
+                slots.b[to] += s.b[k];
             }
         }
     }
 
-    void fillPacket(RayPacket& p, const Vec3<F>& o, const Vec3<F>& d, F far, const UInt<F>& slot, int n) {
-        store(p.originX, o.x);
-        store(p.originY, o.y);
-        store(p.originZ, o.z);
+    /// `row`: the first eight words of a ray or shadow record: origin, -, direction, slot.
+    void fillPacket(RayPacket& p, const F row[8], F far, int n) {
+        store(p.originX, row[0]);
+        store(p.originY, row[1]);
+        store(p.originZ, row[2]);
         store(p.near, F(0.f));
-        store(p.directionX, d.x);
-        store(p.directionY, d.y);
-        store(p.directionZ, d.z);
+        store(p.directionX, row[4]);
+        store(p.directionY, row[5]);
+        store(p.directionZ, row[6]);
         F time(0.f);
-        if (scene_.hasMotion) time = gather(batch_.slots.time, select(firstLanes<F>(n), slot, UInt<F>(0u)));
+        if (scene_.hasMotion) time = gather(batch_.slots.time, select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u)));
         store(p.time, time);
         store(p.far, far);
         store(p.mask, UInt<F>(0xFFFFFFFFu));

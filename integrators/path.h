@@ -18,14 +18,13 @@ public:
     void shade(Step<F>& step, RayGroup<F> g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
         const Scene& scene = step.scene;
         const SurfacePoint<F> at = surfacePoint(scene.geometry, hit, g.origin, g.direction, g.time);
-        const Records<F, ShapeRecord> shape(scene.geometry.shapes.data(), at.shape);
         absorb(scene, g.medium, hit.t, g.throughput);
         if constexpr (M::kPassThrough) {
-            passThrough(step, g, hit, at, shape);
+            passThrough(step, g, hit, at);
         } else {
-            emission(step, g, at, shape);
+            emission(step, g, at);
             const Mask<F> goesOn = g.live & (g.depth < UInt<F>(maxDepth_));
-            if (any(goesOn)) scatterPath<F, M>(step, g, hit, at, shape, material, goesOn);
+            if (any(goesOn)) scatterPath<F, M>(step, g, hit, at, material, goesOn);
         }
     }
 
@@ -68,21 +67,20 @@ private:
 
     /// The medium on the side to which w points.
     template <class F>
-    static UInt<F> mediumBehind(const SurfacePoint<F>& at, const Records<F, ShapeRecord>& shape, const Vec3<F>& w, const UInt<F>& medium) {
-        const Mask<F> border = (shape(&ShapeRecord::flags) & UInt<F>(kShapeMediumBoundary)) != UInt<F>(0u);
+    static UInt<F> mediumBehind(const SurfacePoint<F>& at, const Vec3<F>& w, const UInt<F>& medium) {
+        const Mask<F> border = at.shape.has(kShapeMediumBoundary);
         if (none(border)) return medium;
-        const UInt<F> side = select(dot(w, at.ng) < F(0.f), shape(&ShapeRecord::mediumInside), shape(&ShapeRecord::mediumOutside));
+        const UInt<F> side = select(dot(w, at.ng) < F(0.f), at.shape.mediumInside, at.shape.mediumOutside);
         return select(border, side, medium);
     }
 
     template <class F>
-    void passThrough(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const SurfacePoint<F>& at,
-                     const Records<F, ShapeRecord>& shape) const {
+    void passThrough(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const SurfacePoint<F>& at) const {
         // Shadow rays stop here, so what lies behind is found by the path alone and counts whole.
         const Mask<F> tired = Mask<F>(step.vertex > maxDepth_ + kMostPassThroughs);
         step.go(g,
                 {offsetOrigin(at.p, at.error, at.ng, g.direction), g.direction, g.throughput, F(0.f), g.etaScale,
-                 g.coneWidth + coneSpread<F>(step.scene) * hit.t, g.slot, g.depth, mediumBehind(at, shape, g.direction, g.medium)},
+                 g.coneWidth + coneSpread<F>(step.scene) * hit.t, g.slot, g.depth, mediumBehind(at, g.direction, g.medium)},
                 !tired);
     }
     static constexpr std::uint32_t kMostPassThroughs = 10000;
@@ -91,11 +89,11 @@ private:
     static F coneSpread(const Scene& scene) { return F(scene.camera.coneSpread()); }
 
     template <class F>
-    void emission(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at, const Records<F, ShapeRecord>& shape) const {
-        const UInt<F> first = shape(&ShapeRecord::light);
+    void emission(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at) const {
+        const UInt<F> first = at.shape.light;
         const Mask<F> emits = first != UInt<F>(kNone);
         if (none(emits)) return;
-        const UInt<F> id = select(emits, first + at.primitive * shape(&ShapeRecord::lightStride), UInt<F>(0u));
+        const UInt<F> id = select(emits, first + at.primitive * at.shape.lightStride, UInt<F>(0u));
         const LightEval<F> e = evaluateLight<F>(step.scene.lights, id, {g.origin, at.p, g.direction});
         const F weight = emissionWeight(step.scene, g, id, e.pdf);
         const Spectrum<F> value = g.throughput * e.L * weight;
@@ -104,21 +102,23 @@ private:
 
     template <class F, class M>
     void scatterPath(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const SurfacePoint<F>& at,
-                     const Records<F, ShapeRecord>& shape, const UInt<F>& material, const Mask<F>& goesOn) const {
+                     const UInt<F>& material, const Mask<F>& goesOn) const {
         const Scene& scene = step.scene;
         const F coneWidth = g.coneWidth + coneSpread<F>(scene) * hit.t;
         const ShadingContext<F> context{scene.textures, scene.materials.tableData(), {at.uv, coneWidth * at.uvPerLength, at.p}};
         const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), context);
         const Vec3<F> wo = at.frame.toLocal(-g.direction);
 
+        const auto numbers = scene.sampler.at<F>(g.address, step.vertex);
         if (!scene.lightSampler.empty()) {
             const Mask<F> lit = goesOn & !bsdf.smoothOnly();
-            if (any(lit)) sampleLights(step, g, at, bsdf, wo, lit);
+            if (any(lit)) sampleLights(step, g, at, bsdf, wo, numbers, lit);
         }
 
-        const F uLobe = scene.sampler.get1<F>(g.address, step.vertex, Dim::Lobe);
-        const BsdfSample<F> s = bsdf.sample(wo, uLobe, scene.sampler.get2<F>(g.address, step.vertex, Dim::Direction));
-        NextRay<F> next;
+        F uLobe(0.f);
+        if constexpr (M::kUsesLobe) uLobe = numbers.get1(Dim::Lobe);
+        const BsdfSample<F> s = bsdf.sample(wo, uLobe, numbers.get2(Dim::Direction));
+        PathRay<F> next;
         next.direction = at.frame.toWorld(s.wi);
         next.throughput = g.throughput * s.weight;
         next.bsdfPdf = select(s.delta, F(0.f), s.pdf);
@@ -128,24 +128,24 @@ private:
         next.depth = g.depth + UInt<F>(1u);
         next.origin = offsetOrigin(at.p, at.error, at.ng, next.direction);
         const Mask<F> crosses = dot(next.direction, at.ng) * dot(g.direction, at.ng) > F(0.f);
-        next.medium = select(crosses, mediumBehind(at, shape, next.direction, g.medium), g.medium);
+        next.medium = select(crosses, mediumBehind(at, next.direction, g.medium), g.medium);
         Mask<F> survives = goesOn & s.valid & !isBlack(next.throughput);
-        if (roulette_ != RouletteRule::Off) survives = survives & playRoulette(step, g, next);
+        if (roulette_ != RouletteRule::Off) survives = survives & playRoulette(numbers, next);
         step.go(g, next, survives);
     }
 
     template <class F, class Bsdf>
     void sampleLights(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at, const Bsdf& bsdf, const Vec3<F>& wo,
-                      const Mask<F>& lit) const {
+                      const Sampler::Numbers<F>& numbers, const Mask<F>& lit) const {
         const Scene& scene = step.scene;
         UInt<F> id;
         F pick;
-        scene.lightSampler.pick(scene.sampler.template get1<F>(g.address, step.vertex, Dim::LightPick), id, pick);
+        scene.lightSampler.pick(scene.lightSampler.isSingle() ? F(0.f) : numbers.get1(Dim::LightPick), id, pick);
         // From where rays leave, not from the point itself: both strategies have to see the light from one place. (From a
         // sphere's own inside, rounding puts the point itself inside or outside at random.)
         const Vec3<F> from = offsetOrigin(at.p, at.error, at.ng, -g.direction);
         const LightSample<F> light =
-            sampleLight<F>(scene.lights, id, from, scene.sampler.get2<F>(g.address, step.vertex, Dim::LightPosition));
+            sampleLight<F>(scene.lights, id, from, numbers.get2(Dim::LightPosition));
         Mask<F> wanted = lit & light.valid;
         if (strategy_ == Strategy::BsdfOnly) wanted = wanted & light.delta;
         if (none(wanted)) return;
@@ -164,16 +164,17 @@ private:
         step.shadow(g, offsetOrigin(at.p, at.error, at.ng, light.wi), light.wi, far, value, wanted);
     }
 
-    /// Kills lanes at random in proportion to what their paths still carry; true where the path survives.
+    /// Kills lanes at random in proportion to what their paths still carry; true where the path survives. Late: the square
+    /// root of the throughput, from the fourth scattering event on. Earlier or harsher rules trace fewer rays but lose more
+    /// to variance than they gain (docs/DESIGN.md has the figures).
     template <class F>
-    Mask<F> playRoulette(Step<F>& step, const RayGroup<F>& g, NextRay<F>& next) const {
-        const std::uint32_t firstDepth = roulette_ == RouletteRule::Late ? 5u : 2u;   // in scattering events, this one included
-        const Mask<F> plays = !(next.depth < UInt<F>(firstDepth));
+    Mask<F> playRoulette(const Sampler::Numbers<F>& numbers, PathRay<F>& next) const {
+        const bool late = roulette_ == RouletteRule::Late;
+        const Mask<F> plays = !(next.depth < UInt<F>(late ? 4u : 2u));
         if (none(plays)) return Mask<F>(true);
-        const F carried = maxComponent(next.throughput) * next.etaScale;
-        const F survival = min(max(carried, F(0.f)), roulette_ == RouletteRule::Late ? F(0.95f) : F(1.f));
-        const F u = step.scene.sampler.template get1<F>(g.address, step.vertex, Dim::Roulette);
-        const Mask<F> lives = (u < survival) | !plays;
+        const F carried = max(maxComponent(next.throughput) * next.etaScale, F(0.f));
+        const F survival = late ? min(sqrt(carried), F(0.95f)) : min(carried, F(1.f));
+        const Mask<F> lives = (numbers.get1(Dim::Roulette) < survival) | !plays;
         next.throughput = select(plays & lives, next.throughput * (F(1.f) / survival), next.throughput);
         return lives;
     }

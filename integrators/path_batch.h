@@ -17,28 +17,22 @@ namespace penumbra {
 /// Room behind the last path: groups read and pack eight at a time.
 inline constexpr int kBatchCapacity = kMaxBatch + 2 * kPacketWidth;
 
+/// Records in rows, so that a group gathers them by row loads and a transpose (lanes.h), which beats a gather for each field.
 struct RayBuffer {
-    using Floats = float[kBatchCapacity];
-    using Words = std::uint32_t[kBatchCapacity];
-    alignas(64) Floats originX, originY, originZ, directionX, directionY, directionZ;
-    alignas(64) Floats throughputR, throughputG, throughputB;
-    alignas(64) Floats bsdfPdf;         ///< density with which the direction was chosen; 0: emission met counts whole
-    alignas(64) Floats etaScale;        ///< product of squared relative indices crossed, for roulette
-    alignas(64) Floats coneWidth;       ///< of the ray's cone at its origin
-    alignas(64) Words slot, depth, medium;
+    static constexpr std::uint32_t kStride = 16;
+    /// origin, cone width, direction, slot | throughput, bsdf pdf, eta scale, depth, medium
+    alignas(64) float rows[kBatchCapacity][kStride];
 };
-
 struct HitBuffer {
-    alignas(64) std::uint32_t geometry[kBatchCapacity], primitive[kBatchCapacity], instance[kBatchCapacity];
-    alignas(64) float u[kBatchCapacity], v[kBatchCapacity], t[kBatchCapacity];
+    static constexpr std::uint32_t kStride = 8;
+    /// shape, primitive, instance, u, v, t
+    alignas(64) float rows[kBatchCapacity][kStride];
 };
-
 struct ShadowBuffer {
-    alignas(64) float originX[kBatchCapacity], originY[kBatchCapacity], originZ[kBatchCapacity];
-    alignas(64) float directionX[kBatchCapacity], directionY[kBatchCapacity], directionZ[kBatchCapacity];
-    alignas(64) float far[kBatchCapacity];
+    static constexpr std::uint32_t kStride = 8;
+    /// origin, far, direction, slot
+    alignas(64) float rows[kBatchCapacity][kStride];
     alignas(64) float r[kBatchCapacity], g[kBatchCapacity], b[kBatchCapacity];   ///< what arrives if nothing is in the way
-    alignas(64) std::uint32_t slot[kBatchCapacity];
 };
 
 struct SlotBuffer {
@@ -56,7 +50,7 @@ struct PathBatch {
     HitBuffer hits;
     ShadowBuffer shadows;
     SlotBuffer slots;
-    alignas(64) std::uint32_t key[kBatchCapacity];      ///< material of the hit, or "missed", per ray
+    alignas(64) std::uint32_t key[kBatchCapacity];      ///< per ray: material of the hit, or "missed"
     alignas(64) std::uint16_t order[kBatchCapacity];    ///< rays sorted by key
     int live = 0;                                       ///< rays in the current buffer
     int current = 0;                                    ///< which buffer
@@ -69,25 +63,39 @@ struct PathBatch {
 /// The batch of the calling thread.
 PathBatch& threadBatch();
 
-/// What a step knows of eight rays (or one) that met materials of one kind.
+/// What changes from step to step along a path.
 template <class F>
-struct RayGroup {
+struct PathRay {
     Vec3<F> origin, direction;
     Spectrum<F> throughput;
-    F bsdfPdf, etaScale, coneWidth, time;
-    UInt<F> slot, depth, medium;
-    SampleAddress<F> address;
-    Mask<F> live;               ///< the other lanes are copies of a live one
-    unsigned liveBits;
+    F bsdfPdf;                  ///< density with which the direction was chosen; 0: emission met counts whole
+    F etaScale;                 ///< product of squared relative indices crossed, for roulette
+    F coneWidth;                ///< of the ray's cone at its origin
+    UInt<F> slot, depth;        ///< depth: scattering events so far
+    UInt<F> medium;
+
+    static PathRay load(const RayBuffer& buffer, const UInt<F>& at) {
+        F a[8], b[8];
+        loadRows8(buffer.rows[0], at * UInt<F>(RayBuffer::kStride), a);
+        loadRows8(buffer.rows[0], at * UInt<F>(RayBuffer::kStride) + UInt<F>(8u), b);
+        return {{a[0], a[1], a[2]}, {a[4], a[5], a[6]}, {b[0], b[1], b[2]}, b[3], b[4], a[3],
+                floatBits(a[7]), floatBits(b[5]), floatBits(b[6])};
+    }
+    /// The lanes of `keep`, packed from row `at` on.
+    void store(RayBuffer& buffer, int at, unsigned keep) const {
+        const F a[8] = {origin.x, origin.y, origin.z, coneWidth, direction.x, direction.y, direction.z, floatFromBits(slot)};
+        const F b[8] = {throughput.r, throughput.g, throughput.b, bsdfPdf, etaScale, floatFromBits(depth), floatFromBits(medium), F(0.f)};
+        storeRows8(buffer.rows[at], RayBuffer::kStride, a, keep);
+        storeRows8(buffer.rows[at] + 8, RayBuffer::kStride, b, keep);
+    }
 };
 
-/// A ray that goes on.
+/// What a step knows of eight rays (or one) that met materials of one kind.
 template <class F>
-struct NextRay {
-    Vec3<F> origin, direction;
-    Spectrum<F> throughput;
-    F bsdfPdf, etaScale, coneWidth;
-    UInt<F> slot, depth, medium;
+struct RayGroup : PathRay<F> {
+    F time;
+    SampleAddress<F> address;
+    Mask<F> live;               ///< the other lanes are copies of a live one
 };
 
 /// L of the slots += value. Spare lanes copy a live lane's value and so write what it writes.
@@ -96,46 +104,6 @@ void addToSlot(SlotBuffer& s, const UInt<F>& slot, const Spectrum<F>& value) {
     scatter(s.r, slot, gather(s.r, slot) + value.r);
     scatter(s.g, slot, gather(s.g, slot) + value.g);
     scatter(s.b, slot, gather(s.b, slot) + value.b);
-}
-
-template <class F>
-void pushRay(PathBatch& batch, int& count, const NextRay<F>& ray, unsigned keep) {
-    RayBuffer& b = batch.next();
-    storePacked(b.originX + count, ray.origin.x, keep);
-    storePacked(b.originY + count, ray.origin.y, keep);
-    storePacked(b.originZ + count, ray.origin.z, keep);
-    storePacked(b.directionX + count, ray.direction.x, keep);
-    storePacked(b.directionY + count, ray.direction.y, keep);
-    storePacked(b.directionZ + count, ray.direction.z, keep);
-    storePacked(b.throughputR + count, ray.throughput.r, keep);
-    storePacked(b.throughputG + count, ray.throughput.g, keep);
-    storePacked(b.throughputB + count, ray.throughput.b, keep);
-    storePacked(b.bsdfPdf + count, ray.bsdfPdf, keep);
-    storePacked(b.etaScale + count, ray.etaScale, keep);
-    storePacked(b.coneWidth + count, ray.coneWidth, keep);
-    storePacked(b.slot + count, ray.slot, keep);
-    storePacked(b.depth + count, ray.depth, keep);
-    storePacked(b.medium + count, ray.medium, keep);
-    count += std::popcount(keep);
-}
-
-template <class F>
-void pushShadow(PathBatch& batch, const Vec3<F>& origin, const Vec3<F>& direction, F far, const Spectrum<F>& value,
-                const UInt<F>& slot, unsigned keep) {
-    ShadowBuffer& s = batch.shadows;
-    const int n = batch.shadowCount;
-    storePacked(s.originX + n, origin.x, keep);
-    storePacked(s.originY + n, origin.y, keep);
-    storePacked(s.originZ + n, origin.z, keep);
-    storePacked(s.directionX + n, direction.x, keep);
-    storePacked(s.directionY + n, direction.y, keep);
-    storePacked(s.directionZ + n, direction.z, keep);
-    storePacked(s.far + n, far, keep);
-    storePacked(s.r + n, value.r, keep);
-    storePacked(s.g + n, value.g, keep);
-    storePacked(s.b + n, value.b, keep);
-    storePacked(s.slot + n, slot, keep);
-    batch.shadowCount = n + std::popcount(keep);
 }
 
 }  // namespace penumbra

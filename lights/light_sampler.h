@@ -29,6 +29,8 @@ public:
     LightSampler(LightSelection selection, const LightTable& lights, bool includeUniformInfinite);
 
     bool empty() const { return lights_ == 0; }
+    /// Only one light can be picked: pick() does not look at its number.
+    bool isSingle() const { return only_ >= 0; }
 
     /// REQUIRES: !empty(), u in [0, 1).
     template <class F>

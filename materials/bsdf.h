@@ -7,6 +7,7 @@
 //
 // A material type is a plain struct of 32-bit words (one row of a table, read through Records) with
 //   static constexpr PluginInfo kInfo;
+//   static constexpr bool kUsesLobe;         // false: sample() does not look at uLobe, which then need not be drawn
 //   static constexpr bool kPassThrough;      // true: a mere border of media, which rays cross as if it were not there
 //   template <class F> using Bsdf = ...;     // the closure it builds
 //   static M make(MaterialInput&);           // from parameters, at scene build (cold)

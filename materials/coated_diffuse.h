@@ -183,6 +183,7 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
     static constexpr PluginInfo kInfo{
         "coateddiffuse", "Lambertian base under a smooth or rough dielectric coat, two-sided", kParameters};
     static constexpr bool kPassThrough = false;
+    static constexpr bool kUsesLobe = true;
     template <class F>
     using Bsdf = CoatedDiffuseBsdf<F>;
 

@@ -60,6 +60,7 @@ struct ConductorMaterial : RoughnessInputs {
     };
     static constexpr PluginInfo kInfo{"conductor", "metal, smooth or rough (GGX), two-sided", kParameters};
     static constexpr bool kPassThrough = false;
+    static constexpr bool kUsesLobe = false;
     template <class F>
     using Bsdf = ConductorBsdf<F>;
 

@@ -94,6 +94,7 @@ struct DielectricMaterial : RoughnessInputs {
     static constexpr PluginInfo kInfo{"dielectric", "glass, water: smooth or rough (GGX) reflection and refraction",
                                       kParameters};
     static constexpr bool kPassThrough = false;
+    static constexpr bool kUsesLobe = true;
     template <class F>
     using Bsdf = DielectricBsdf<F>;
 

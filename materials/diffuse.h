@@ -36,6 +36,7 @@ struct DiffuseMaterial {
     };
     static constexpr PluginInfo kInfo{"diffuse", "Lambertian reflection, two-sided", kParameters};
     static constexpr bool kPassThrough = false;
+    static constexpr bool kUsesLobe = false;
     template <class F>
     using Bsdf = DiffuseBsdf<F>;
 

@@ -21,6 +21,7 @@ struct InterfaceBsdf {
 struct InterfaceMaterial {
     static constexpr PluginInfo kInfo{"interface", "no scattering: a mere border between media", {}};
     static constexpr bool kPassThrough = true;
+    static constexpr bool kUsesLobe = false;
     template <class F>
     using Bsdf = InterfaceBsdf<F>;
 

@@ -21,19 +21,23 @@ struct IndependentSampler {
     }
 
     template <class F>
-    F get1(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        return unitFloat<F>(draw<F>(a, dimensionKey(vertex, std::uint32_t(dim))));
+    VertexAddress<F> atVertex(const SampleAddress<F>& a, std::uint32_t vertex) const {
+        return {mixBits(a.index * UInt<F>(0x9E3779B9u) + a.seed), a.index, vertex};
     }
     template <class F>
-    Vec2<F> get2(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        const UInt<F> x = draw<F>(a, dimensionKey(vertex, std::uint32_t(dim)));
+    F get1(const VertexAddress<F>& v, Dim dim) const {
+        return unitFloat<F>(draw<F>(v, dim));
+    }
+    template <class F>
+    Vec2<F> get2(const VertexAddress<F>& v, Dim dim) const {
+        const UInt<F> x = draw<F>(v, dim);
         return {unitFloat<F>(x), unitFloat<F>(mixBits(x ^ UInt<F>(0xB5297A4Du)))};
     }
 
 private:
     template <class F>
-    static UInt<F> draw(const SampleAddress<F>& a, std::uint32_t key) {
-        return mixBits(mixBits(a.index * UInt<F>(0x9E3779B9u) + a.seed) ^ UInt<F>(key));
+    static UInt<F> draw(const VertexAddress<F>& v, Dim dim) {
+        return mixBits(v.seed ^ UInt<F>(dimensionKey(v.vertex, std::uint32_t(dim))));
     }
 };
 

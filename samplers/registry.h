@@ -18,19 +18,33 @@ public:
     template <class T>
     Sampler(const T& sampler) : tag_(kTagOf<T, SamplerTypes>), sampler_(sampler) {}
 
+    /// The numbers of one vertex of a sample; ask for those that are needed, in any order.
     template <class F>
-    F get1(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        return dispatch(SamplerTypes{}, tag_,
-                        [&]<class T>() { return std::get_if<T>(&sampler_)->template get1<F>(a, vertex, dim); });
-    }
+    class Numbers {
+    public:
+        F get1(Dim dim) const {
+            return dispatch(SamplerTypes{}, sampler_.tag_, [&]<class T>() { return sampler_.as<T>().template get1<F>(at_, dim); });
+        }
+        Vec2<F> get2(Dim dim) const {
+            return dispatch(SamplerTypes{}, sampler_.tag_, [&]<class T>() { return sampler_.as<T>().template get2<F>(at_, dim); });
+        }
+
+    private:
+        friend class Sampler;
+        Numbers(const Sampler& sampler, const VertexAddress<F>& at) : sampler_(sampler), at_(at) {}
+        const Sampler& sampler_;
+        VertexAddress<F> at_;
+    };
+
     template <class F>
-    Vec2<F> get2(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        return dispatch(SamplerTypes{}, tag_,
-                        [&]<class T>() { return std::get_if<T>(&sampler_)->template get2<F>(a, vertex, dim); });
+    Numbers<F> at(const SampleAddress<F>& a, std::uint32_t vertex) const {
+        return {*this, dispatch(SamplerTypes{}, tag_, [&]<class T>() { return as<T>().template atVertex<F>(a, vertex); })};
     }
     const PluginInfo& info() const;
 
 private:
+    template <class T>
+    const T& as() const { return *std::get_if<T>(&sampler_); }
     template <class... Ts>
     static std::variant<Ts...> storage(TypeList<Ts...>);
     unsigned tag_ = 0;

@@ -19,6 +19,13 @@ struct SampleAddress {
     UInt<F> seed, index;
 };
 
+/// What all draws of one sample at one vertex share; each sampler prepares it in its own way (atVertex).
+template <class F>
+struct VertexAddress {
+    UInt<F> seed, index;
+    std::uint32_t vertex;
+};
+
 /// Sample i belongs to replicate plane i mod R and is point i / R of that plane's own randomisation. A bijection of the
 /// pixel number for each plane, so no two pixels share a randomisation.
 template <class F>

@@ -30,16 +30,18 @@ struct SobolSampler {
     }
 
     template <class F>
-    F get1(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
+    VertexAddress<F> atVertex(const SampleAddress<F>& a, std::uint32_t vertex) const {
         const UInt<F> seed = mixBits(a.seed ^ UInt<F>(dimensionKey(vertex, 0)));
-        return coordinate<F>(shuffled<F>(a.index, seed), seed, firstDimension(dim), std::uint32_t(dim));
+        return {seed, shuffled<F>(a.index, seed), vertex};
     }
     template <class F>
-    Vec2<F> get2(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        const UInt<F> seed = mixBits(a.seed ^ UInt<F>(dimensionKey(vertex, 0)));
-        const UInt<F> i = shuffled<F>(a.index, seed);
+    F get1(const VertexAddress<F>& v, Dim dim) const {
+        return coordinate<F>(v, firstDimension(dim), std::uint32_t(dim));
+    }
+    template <class F>
+    Vec2<F> get2(const VertexAddress<F>& v, Dim dim) const {
         const int d = firstDimension(dim);
-        return {coordinate<F>(i, seed, d, std::uint32_t(dim)), coordinate<F>(i, seed, d + 1, std::uint32_t(dim) + 0x100u)};
+        return {coordinate<F>(v, d, std::uint32_t(dim)), coordinate<F>(v, d + 1, std::uint32_t(dim) + 0x100u)};
     }
 
 private:
@@ -68,14 +70,18 @@ private:
         x = x ^ (x * U(0x53A22864u));
         return x;
     }
+    /// Only the low bits are shuffled (each with those above deciding how): a shuffle of blocks within blocks all the same, and
+    /// the points of a render with at most 2^kSobolShortBits samples need no other columns of the matrices.
     template <class F>
     static UInt<F> shuffled(const UInt<F>& index, const UInt<F>& seed) {
-        return reverseBits(scrambleReversed(reverseBits(index), seed));
+        constexpr std::uint32_t kLow = (1u << kSobolShortBits) - 1u;
+        const UInt<F> all = reverseBits(scrambleReversed(reverseBits(index), seed));
+        return (all & UInt<F>(kLow)) | (index & UInt<F>(~kLow));
     }
     template <class F>
-    static F coordinate(const UInt<F>& index, const UInt<F>& seed, int dimension, std::uint32_t salt) {
-        const UInt<F> s = mixBits(seed + UInt<F>(mixBits(salt + 0x51633E2Du)));
-        return unitFloat<F>(reverseBits(scrambleReversed(sobolReversed(index, dimension), s)));
+    static F coordinate(const VertexAddress<F>& v, int dimension, std::uint32_t salt) {
+        const UInt<F> s = mixBits(v.seed + UInt<F>(mixBits(salt + 0x51633E2Du)));
+        return unitFloat<F>(reverseBits(scrambleReversed(sobolReversed(v.index, dimension), s)));
     }
 };
 

@@ -10,6 +10,8 @@
 namespace penumbra {
 
 inline constexpr int kSobolDimensions = 8;
+/// Indices below 2^this take a short cut.
+inline constexpr int kSobolShortBits = 12;
 
 namespace detail {
 
@@ -56,7 +58,9 @@ U sobolReversed(U index, int dimension) {
     if (dimension == 0) return index;
     const auto& table = detail::kSobol.entry[dimension];
     U x = lookup8(table[0], index);
-    for (int k = 1; k < 11; ++k) x = x ^ lookup8(table[k], index >> (3 * k));
+    for (int k = 1; k < kSobolShortBits / 3; ++k) x = x ^ lookup8(table[k], index >> (3 * k));
+    if (any((index >> kSobolShortBits) != U(0u))) [[unlikely]]
+        for (int k = kSobolShortBits / 3; k < 11; ++k) x = x ^ lookup8(table[k], index >> (3 * k));
     return x;
 }
 

@@ -40,13 +40,17 @@ struct StratifiedSampler {
     }
 
     template <class F>
-    F get1(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        const Place<F> p = place<F>(a, dimensionKey(vertex, std::uint32_t(dim)));
+    VertexAddress<F> atVertex(const SampleAddress<F>& a, std::uint32_t vertex) const {
+        return {a.seed, a.index, vertex};
+    }
+    template <class F>
+    F get1(const VertexAddress<F>& v, Dim dim) const {
+        const Place<F> p = place<F>(v, dim);
         return inside<F>(p.stratum, x * y, p.noise);
     }
     template <class F>
-    Vec2<F> get2(const SampleAddress<F>& a, std::uint32_t vertex, Dim dim) const {
-        const Place<F> p = place<F>(a, dimensionKey(vertex, std::uint32_t(dim)));
+    Vec2<F> get2(const VertexAddress<F>& v, Dim dim) const {
+        const Place<F> p = place<F>(v, dim);
         const UInt<F> row = divide<F>(p.stratum, x);
         return {inside<F>(p.stratum - row * UInt<F>(x), x, p.noise),
                 inside<F>(row, y, mixBits(p.noise ^ UInt<F>(0xB5297A4Du)))};
@@ -63,8 +67,8 @@ private:
 
     /// The stratum that a permutation of the grid, hashed from pixel, pass and dimension, gives to this sample.
     template <class F>
-    Place<F> place(const SampleAddress<F>& a, std::uint32_t key) const {
-        const std::uint32_t n = x * y;
+    Place<F> place(const VertexAddress<F>& a, Dim dim) const {
+        const std::uint32_t n = x * y, key = dimensionKey(a.vertex, std::uint32_t(dim));
         const UInt<F> pass = divide<F>(a.index, n), i = a.index - pass * UInt<F>(n);
         const UInt<F> seed = mixBits(mixBits(a.seed ^ UInt<F>(key)) + pass * UInt<F>(0x9E3779B9u));
         return {permute<F>(i, n, seed), mixBits(seed + a.index * UInt<F>(0x2C1B3C6Du))};

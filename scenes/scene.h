@@ -36,7 +36,7 @@ struct FilmSettings {
 };
 
 enum class RouletteRule {
-    Late,   ///< our own: from the fifth scattering on, survival with the path's throughput, at most 0.95
+    Late,   ///< our own: from the fourth scattering on, survival with the square root of the throughput, at most 0.95
     Pbrt,   ///< from the second on, with the throughput
     Off
 };

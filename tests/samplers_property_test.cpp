@@ -32,11 +32,11 @@ TEST(Samplers, DrawsArePureFunctionsInTheUnitInterval) {
     forEachSampler(64, [](const std::string&, const Sampler& s) {
         for (std::uint32_t i = 0; i < 512; ++i) {
             const auto a = address(i / 64, i % 64);
-            const float x = s.get1<float>(a, 3, Dim::Lobe);
-            const Vec2<float> u = s.get2<float>(a, 2, Dim::Direction);
-            s.get1<float>(address(77, 5), 9, Dim::Roulette);   // go elsewhere, come back
-            EXPECT_EQ(x, s.get1<float>(a, 3, Dim::Lobe));
-            EXPECT_EQ(u.y, s.get2<float>(a, 2, Dim::Direction).y);
+            const float x = s.at<float>(a, 3).get1(Dim::Lobe);
+            const Vec2<float> u = s.at<float>(a, 2).get2(Dim::Direction);
+            s.at<float>(address(77, 5), 9).get1(Dim::Roulette);   // go elsewhere, come back
+            EXPECT_EQ(x, s.at<float>(a, 3).get1(Dim::Lobe));
+            EXPECT_EQ(u.y, s.at<float>(a, 2).get2(Dim::Direction).y);
             for (float v : {x, u.x, u.y}) {
                 EXPECT_GE(v, 0.f);
                 EXPECT_LT(v, 1.f);
@@ -52,13 +52,13 @@ TEST(Samplers, EightLanesGiveTheBitsOfOne) {
                 std::uint32_t pixel[8], sample[8];
                 for (std::uint32_t k = 0; k < 8; ++k) pixel[k] = mixBits(i + k) & 0xFFFFFu, sample[k] = (i * 3 + k) % 200;
                 const auto wide = addressOf<Lanes8f>(load<Lanes8f>(pixel), load<Lanes8f>(sample), replicates, 5);
-                const auto u = s.get2<Lanes8f>(wide, 4, Dim::LightPosition);
-                const auto v = s.get1<Lanes8f>(wide, 1, Dim::Roulette);
+                const auto u = s.at<Lanes8f>(wide, 4).get2(Dim::LightPosition);
+                const auto v = s.at<Lanes8f>(wide, 1).get1(Dim::Roulette);
                 for (int k = 0; k < 8; ++k) {
                     const auto a = addressOf<float>(pixel[k], sample[k], replicates, 5);
-                    EXPECT_EQ(s.get2<float>(a, 4, Dim::LightPosition).x, lane(u.x, k));
-                    EXPECT_EQ(s.get2<float>(a, 4, Dim::LightPosition).y, lane(u.y, k));
-                    EXPECT_EQ(s.get1<float>(a, 1, Dim::Roulette), lane(v, k));
+                    EXPECT_EQ(s.at<float>(a, 4).get2(Dim::LightPosition).x, lane(u.x, k));
+                    EXPECT_EQ(s.at<float>(a, 4).get2(Dim::LightPosition).y, lane(u.y, k));
+                    EXPECT_EQ(s.at<float>(a, 1).get1(Dim::Roulette), lane(v, k));
                 }
             }
         });
@@ -83,22 +83,22 @@ TEST(Samplers, EverySampleIsUniformAndEveryPairOfDrawsIndependent) {
     const double level = 1 - std::pow(1 - 1e-3, 1.0 / (7.0 * SamplerTypes::size));
     forEachSampler(64, [&](const std::string&, const Sampler& s) {
         const auto at = [](std::uint32_t i) { return address(i, 37); };
-        EXPECT_GT(uniformityPValue([&](std::uint32_t i) { return s.get2<float>(at(i), 0, Dim::Filter); }), level);
-        EXPECT_GT(uniformityPValue([&](std::uint32_t i) { return s.get2<float>(at(i), 3, Dim::Direction); }), level);
+        EXPECT_GT(uniformityPValue([&](std::uint32_t i) { return s.at<float>(at(i), 0).get2(Dim::Filter); }), level);
+        EXPECT_GT(uniformityPValue([&](std::uint32_t i) { return s.at<float>(at(i), 3).get2(Dim::Direction); }), level);
         EXPECT_GT(uniformityPValue([&](std::uint32_t i) {
-            return Vec2<float>{s.get1<float>(at(i), 1, Dim::Lobe), s.get1<float>(at(i), 1, Dim::Roulette)};
+            return Vec2<float>{s.at<float>(at(i), 1).get1(Dim::Lobe), s.at<float>(at(i), 1).get1(Dim::Roulette)};
         }), level) << "two dimensions of one vertex";
         EXPECT_GT(uniformityPValue([&](std::uint32_t i) {
-            return Vec2<float>{s.get2<float>(at(i), 1, Dim::LightPosition).x, s.get2<float>(at(i), 1, Dim::Direction).x};
+            return Vec2<float>{s.at<float>(at(i), 1).get2(Dim::LightPosition).x, s.at<float>(at(i), 1).get2(Dim::Direction).x};
         }), level) << "light and direction";
         EXPECT_GT(uniformityPValue([&](std::uint32_t i) {
-            return Vec2<float>{s.get2<float>(at(i), 1, Dim::Direction).x, s.get2<float>(at(i), 2, Dim::Direction).x};
+            return Vec2<float>{s.at<float>(at(i), 1).get2(Dim::Direction).x, s.at<float>(at(i), 2).get2(Dim::Direction).x};
         }), level) << "two vertices";
         EXPECT_GT(uniformityPValue([&](std::uint32_t i) {
-            return Vec2<float>{s.get1<float>(address(i, 3), 1, Dim::Lobe), s.get1<float>(address(i + 1, 3), 1, Dim::Lobe)};
+            return Vec2<float>{s.at<float>(address(i, 3), 1).get1(Dim::Lobe), s.at<float>(address(i + 1, 3), 1).get1(Dim::Lobe)};
         }), level) << "neighbouring pixels";
         EXPECT_GT(uniformityPValue([&](std::uint32_t i) {
-            return Vec2<float>{s.get1<float>(address(i, 3, 1), 1, Dim::Lobe), s.get1<float>(address(i, 3, 2), 1, Dim::Lobe)};
+            return Vec2<float>{s.at<float>(address(i, 3, 1), 1).get1(Dim::Lobe), s.at<float>(address(i, 3, 2), 1).get1(Dim::Lobe)};
         }), level) << "neighbouring seeds";
     });
 }
@@ -109,7 +109,7 @@ TEST(Samplers, ReplicatesAreIndependentRandomisationsOfTheSamePoints) {
     for (std::uint32_t plane = 0; plane < 4; ++plane) {
         int cells[16] = {};
         for (std::uint32_t k = 0; k < 16; ++k) {
-            const Vec2<float> u = s.get2<float>(addressOf<float>(9, 4 * k + plane, 4, 1), 1, Dim::LightPosition);
+            const Vec2<float> u = s.at<float>(addressOf<float>(9, 4 * k + plane, 4, 1), 1).get2(Dim::LightPosition);
             ++cells[int(u.x * 4) * 4 + int(u.y * 4)];
         }
         for (int c : cells) EXPECT_EQ(c, 1);
@@ -125,7 +125,7 @@ TEST(SobolSampler, EveryElementaryIntervalHasOnePoint) {
                     const std::uint32_t n = 1u << logN;
                     std::vector<int> cells(n, 0);
                     for (std::uint32_t i = 0; i < n; ++i) {
-                        const Vec2<float> u = s.get2<float>(address(pixel, i), dim == Dim::Filter ? 0 : 1, dim);
+                        const Vec2<float> u = s.at<float>(address(pixel, i), dim == Dim::Filter ? 0 : 1).get2(dim);
                         ++cells[(std::uint32_t(u.x * float(1 << a)) << (logN - a)) + std::uint32_t(u.y * float(1 << (logN - a)))];
                     }
                     for (int c : cells) ASSERT_EQ(c, 1);
@@ -137,7 +137,7 @@ TEST(SobolSampler, EveryNumberIsStratifiedAlone) {
     for (Dim dim : {Dim::Lobe, Dim::LightPick, Dim::Roulette})
         for (std::uint32_t pixel = 0; pixel < 20; ++pixel) {
             std::vector<int> cells(256, 0);
-            for (std::uint32_t i = 0; i < 256; ++i) ++cells[std::size_t(s.get1<float>(address(pixel, i), 5, dim) * 256)];
+            for (std::uint32_t i = 0; i < 256; ++i) ++cells[std::size_t(s.at<float>(address(pixel, i), 5).get1(dim) * 256)];
             for (int c : cells) ASSERT_EQ(c, 1);
         }
 }
@@ -149,7 +149,7 @@ double meanSquaredError(const Sampler& s, std::uint32_t n, std::uint32_t pixels,
     for (std::uint32_t p = 0; p < pixels; ++p) {
         double mean = 0;
         for (std::uint32_t i = 0; i < n; ++i) {
-            const Vec2<float> u = s.get2<float>(address(p, i), 1, Dim::LightPosition);
+            const Vec2<float> u = s.at<float>(address(p, i), 1).get2(Dim::LightPosition);
             mean += f(double(u.x), double(u.y)) / n;
         }
         sum += (mean - truth) * (mean - truth) / pixels;
@@ -176,7 +176,7 @@ TEST(StratifiedSampler, EveryStratumHasOneSampleAndTheErrorIsThatOfJitter) {
         for (std::uint32_t pass = 0; pass < 2; ++pass) {
             std::vector<int> cells(1024, 0);
             for (std::uint32_t i = 0; i < 1024; ++i) {
-                const Vec2<float> u = s.get2<float>(address(pixel, pass * 1024 + i), 1, Dim::LightPosition);
+                const Vec2<float> u = s.at<float>(address(pixel, pass * 1024 + i), 1).get2(Dim::LightPosition);
                 ++cells[std::size_t(int(u.x * 32) * 32 + int(u.y * 32))];
             }
             for (int c : cells) ASSERT_EQ(c, 1);

@@ -217,9 +217,10 @@ Accelerator& Accelerator::operator=(Accelerator&&) noexcept = default;
 namespace {
 
 #if PENUMBRA_EMBREE_MAJOR >= 4
-void trace(RTCScene scene, const int* valid, RayHitPacket& rays) {
+void trace(RTCScene scene, const int* valid, RayHitPacket& rays, Coherence coherence) {
     RTCIntersectArguments arguments;
     rtcInitIntersectArguments(&arguments);
+    if (coherence == Coherence::Coherent) arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
     rtcIntersect8(valid, scene, reinterpret_cast<RTCRayHit8*>(&rays), &arguments);
 }
 void trace(RTCScene scene, const int* valid, RayPacket& rays) {
@@ -230,9 +231,10 @@ void trace(RTCScene scene, const int* valid, RayPacket& rays) {
 void traceOne(RTCScene scene, RTCRayHit& ray) { rtcIntersect1(scene, &ray, nullptr); }
 void traceOne(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
 #else
-void trace(RTCScene scene, const int* valid, RayHitPacket& rays) {
+void trace(RTCScene scene, const int* valid, RayHitPacket& rays, Coherence coherence) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    if (coherence == Coherence::Coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect8(valid, scene, &context, reinterpret_cast<RTCRayHit8*>(&rays));
 }
 void trace(RTCScene scene, const int* valid, RayPacket& rays) {
@@ -262,9 +264,9 @@ RTCRay singleRay(const RayPacket& r, int i) {
 
 }  // namespace
 
-void Accelerator::intersect(RayHitPacket& rays, unsigned live) const noexcept {
+void Accelerator::intersect(RayHitPacket& rays, unsigned live, Coherence coherence) const noexcept {
     const LiveLanes lanes(live);
-    trace(state_->scenes[0], lanes.valid, rays);
+    trace(state_->scenes[0], lanes.valid, rays, coherence);
     if (!state_->hasInstances) return;
     // Embree names the instance by its geometry number in the world; ours count from the first instance.
     const Lanes8u id = load<Lanes8f>(rays.hit.instance);

@@ -20,6 +20,9 @@ enum class IntersectionMode {
     Fast      ///< 10 to 28 % faster; about one ray in a million slips through an edge
 };
 
+/// What the caller knows of the rays of a packet. Speed alone: results are the same.
+enum class Coherence { Incoherent, Coherent };
+
 struct SceneBounds {
     Vec3<float> lower, upper;   ///< lower > upper where the scene is empty
 };
@@ -33,7 +36,7 @@ public:
     Accelerator(Accelerator&&) noexcept;
     Accelerator& operator=(Accelerator&&) noexcept;
 
-    void intersect(RayHitPacket& rays, unsigned live) const noexcept;
+    void intersect(RayHitPacket& rays, unsigned live, Coherence coherence = Coherence::Incoherent) const noexcept;
     /// Sets far to -infinity where something lies between near and far.
     void occluded(RayPacket& rays, unsigned live) const noexcept;
     /// One by one through Embree's single-ray calls: for ray_roof's comparison only; bits may differ from the packets'.

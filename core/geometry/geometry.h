@@ -29,17 +29,41 @@ inline constexpr std::uint32_t kShapeNeedsTangent = 4;  ///< the material is ani
 inline constexpr std::uint32_t kShapeInvisible = 8;     ///< in no acceleration structure (a light with alpha 0)
 inline constexpr std::uint32_t kShapeMediumBoundary = 16;
 
-struct ShapeRecord {
+struct alignas(64) ShapeRecord {
     ShapeKind kind = ShapeKind::Mesh;
     std::uint32_t flags = 0;
     std::uint32_t material = 0;
     std::uint32_t first = 0;               ///< mesh: first triangle; quadric: row of quadrics
-    std::uint32_t count = 0;               ///< triangles, or 1
     std::uint32_t light = kNone;           ///< light of primitive 0
     std::uint32_t lightStride = 0;         ///< 1: every triangle its own light; 0: one light for the shape
     std::uint32_t mediumInside = kNone, mediumOutside = kNone;   ///< medium rows where kShapeMediumBoundary
     // What to add to a vertex number to get its row in normals, uvs, tangents; kNone: the mesh has none.
     std::uint32_t normalShift = kNone, uvShift = kNone, tangentShift = kNone;
+    std::uint32_t count = 0;               ///< triangles, or 1
+};
+
+/// A row of shapes for every lane, with the fields that shading reads.
+template <class F>
+struct ShapeLanes {
+    UInt<F> kind, flags, first, light, lightStride, mediumInside, mediumOutside, normalShift, uvShift, tangentShift;
+
+    static ShapeLanes load(const ShapeRecord* shapes, const UInt<F>& row) {
+        static_assert(sizeof(ShapeRecord) == 64);
+        const Records<F, ShapeRecord> r(shapes, row);
+        if (r.shared()) {
+            const ShapeRecord& s = r.first();
+            return {UInt<F>(std::uint32_t(s.kind)), UInt<F>(s.flags), UInt<F>(s.first), UInt<F>(s.light), UInt<F>(s.lightStride),
+                    UInt<F>(s.mediumInside), UInt<F>(s.mediumOutside), UInt<F>(s.normalShift), UInt<F>(s.uvShift),
+                    UInt<F>(s.tangentShift)};
+        }
+        const float* base = reinterpret_cast<const float*>(shapes);
+        F w[8], v[4];
+        loadRows8(base, row * UInt<F>(16u), w);
+        loadRows4(base, row * UInt<F>(16u) + UInt<F>(8u), v);
+        return {floatBits(w[0]), floatBits(w[1]), floatBits(w[3]), floatBits(w[4]), floatBits(w[5]),
+                floatBits(w[6]), floatBits(w[7]), floatBits(v[0]), floatBits(v[1]), floatBits(v[2])};
+    }
+    Mask<F> has(std::uint32_t flag) const { return (flags & UInt<F>(flag)) != UInt<F>(0u); }
 };
 
 /// A (part of a) sphere or an annulus, in object space: see PBRT-v4's sphere and disk.

@@ -12,9 +12,18 @@ namespace penumbra {
 
 template <class F>
 struct Hit {
-    UInt<F> geometry, primitive, instance;
+    UInt<F> shape, primitive, instance;   ///< row of Geometry::shapes (see shapeOf), triangle of the mesh, row of instances or kNone
     F u, v, t;
 };
+
+/// The row of shapes that belongs to what Embree reports: the geometry's number in its group, and the instance met, if any.
+template <class F>
+UInt<F> shapeOf(const Geometry& g, const UInt<F>& geometry, const UInt<F>& instance) {
+    const Mask<F> instanced = instance != UInt<F>(kNone);
+    if (none(instanced)) return geometry;
+    const Records<F, InstanceRecord> r(g.instances.data(), select(instanced, instance, UInt<F>(0u)));
+    return select(instanced, r(&InstanceRecord::firstShape) + geometry, geometry);
+}
 
 template <class F>
 struct SurfacePoint {
@@ -22,7 +31,7 @@ struct SurfacePoint {
     Frame<F> frame;
     Vec2<F> uv;
     F uvPerLength;       ///< how far uv moves for a step of unit length, to scale footprints
-    UInt<F> shape;       ///< row of Geometry::shapes
+    ShapeLanes<F> shape;
     UInt<F> primitive;   ///< triangle of the mesh
 };
 
@@ -35,15 +44,6 @@ Vec3<F> offsetOrigin(const Vec3<F>& p, const Vec3<F>& error, const Vec3<F>& ng, 
 }
 
 namespace detail {
-
-/// The row of shapes that a hit belongs to.
-template <class F>
-UInt<F> shapeOf(const Geometry& g, const Hit<F>& hit) {
-    const Mask<F> instanced = hit.instance != UInt<F>(kNone);
-    if (none(instanced)) return hit.geometry;
-    const Records<F, InstanceRecord> r(g.instances.data(), select(instanced, hit.instance, UInt<F>(0u)));
-    return select(instanced, r(&InstanceRecord::firstShape) + hit.geometry, hit.geometry);
-}
 
 template <class F>
 Vec3<F> loadVertex(const std::vector<float>& table, const UInt<F>& row) {
@@ -61,10 +61,10 @@ struct LocalSurface {
 };
 
 template <class F>
-LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& shape, const Hit<F>& hit, const Mask<F>& isMesh) {
+LocalSurface<F> meshSurface(const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh) {
     LocalSurface<F> s;
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
-    const UInt<F> triangle = select(isMesh, shape(&ShapeRecord::first) + hit.primitive, UInt<F>(0u));
+    const UInt<F> triangle = select(isMesh, shape.first + hit.primitive, UInt<F>(0u));
     F corner[4];
     loadRows4(reinterpret_cast<const float*>(g.indices.data()), triangle * UInt<F>(3u), corner);
     const UInt<F> i0 = floatBits(corner[0]), i1 = floatBits(corner[1]), i2 = floatBits(corner[2]);
@@ -76,8 +76,7 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
     const F largest = max(maxComponent(abs(p0)), max(maxComponent(abs(p1)), maxComponent(abs(p2)))) * F(12 * 0x1p-24f);
     s.error = {largest, largest, largest};
     const Vec3<F> e1 = p1 - p0, e2 = p2 - p0;
-    const UInt<F> flags = shape(&ShapeRecord::flags);
-    const Mask<F> flip = (flags & UInt<F>(kShapeFlipNormal)) != UInt<F>(0u);
+    const Mask<F> flip = shape.has(kShapeFlipNormal);
     const Vec3<F> faceNormal = cross(e1, e2);
     // Nor may a ray start beyond an edge, where the next face of a closed room is behind it: points keep off the edges by
     // their error. With n the face normal (twice the area long), barycentric b is b |n| / |edge| away from its edge.
@@ -94,7 +93,7 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
     }
     s.ng = flipSign(flip, faceNormal);
     s.ns = s.ng;
-    const UInt<F> normalShift = shape(&ShapeRecord::normalShift);
+    const UInt<F> normalShift = shape.normalShift;
     const Mask<F> smooth = isMesh & (normalShift != UInt<F>(kNone));
     if (any(smooth)) {
         const UInt<F> shift = select(smooth, normalShift, UInt<F>(0u));
@@ -108,9 +107,9 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
     s.uv = {b1 + b2, b2};   // the corners of a mesh without uv are (0,0), (1,0), (1,1)
     s.tangent = e1;
     s.uvPerLength = F(0.f);
-    const Mask<F> needs = isMesh & ((flags & UInt<F>(kShapeNeedsUv | kShapeNeedsTangent)) != UInt<F>(0u));
+    const Mask<F> needs = isMesh & shape.has(kShapeNeedsUv | kShapeNeedsTangent);
     if (any(needs)) {
-        const UInt<F> uvShift = shape(&ShapeRecord::uvShift);
+        const UInt<F> uvShift = shape.uvShift;
         const Mask<F> mapped = needs & (uvShift != UInt<F>(kNone));
         Vec2<F> t0 = {F(0.f), F(0.f)}, t1 = {F(1.f), F(0.f)}, t2 = {F(1.f), F(1.f)};
         if (any(mapped)) {
@@ -129,7 +128,7 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
         const Vec3<F> dpdu = flipSign(determinant < F(0.f), e1 * d2.y - e2 * d1.y);
         s.tangent = select(abs(determinant) > F(1e-30f), dpdu, s.tangent);
         s.uvPerLength = sqrt(abs(determinant) / max(length(faceNormal), F(1e-30f)));
-        const UInt<F> tangentShift = shape(&ShapeRecord::tangentShift);
+        const UInt<F> tangentShift = shape.tangentShift;
         const Mask<F> given = needs & (tangentShift != UInt<F>(kNone));
         if (any(given)) {
             const auto tangent = [&](const UInt<F>& i) {
@@ -142,10 +141,10 @@ LocalSurface<F> meshSurface(const Geometry& g, const Records<F, ShapeRecord>& sh
 }
 
 template <class F>
-LocalSurface<F> quadricSurface(const Geometry& g, const Records<F, ShapeRecord>& shape, const Mask<F>& isQuadric,
+LocalSurface<F> quadricSurface(const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& isQuadric,
                                const Vec3<F>& met, Affine<F>& worldFromObject) {
     // `met` is the hit in the space of the shape's group; the quadric's own matrix leads from its object space to that.
-    const UInt<F> row = select(isQuadric, shape(&ShapeRecord::first), UInt<F>(0u));
+    const UInt<F> row = select(isQuadric, shape.first, UInt<F>(0u));
     const Records<F, QuadricRecord> q(g.quadrics.data(), row);
     const AffineRecord* table = &g.quadrics[0].worldFromObject;
     constexpr std::uint32_t kStride = sizeof(QuadricRecord) / 4;
@@ -159,7 +158,7 @@ LocalSurface<F> quadricSurface(const Geometry& g, const Records<F, ShapeRecord>&
     worldFromObject = load(0);
     const Affine<F> objectFromWorld = load(12);
     const QuadricPoint<F> point = quadricPoint(q, objectFromWorld.point(met));
-    const Mask<F> flip = (shape(&ShapeRecord::flags) & UInt<F>(kShapeFlipNormal)) != UInt<F>(0u);
+    const Mask<F> flip = shape.has(kShapeFlipNormal);
     LocalSurface<F> s;
     s.p = worldFromObject.point(point.p);
     s.error = worldFromObject.pointError(point.p, point.error);
@@ -178,9 +177,9 @@ template <class F>
 SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>& origin, const Vec3<F>& direction, F time) {
     using namespace detail;
     SurfacePoint<F> out;
-    out.shape = shapeOf(g, hit);
+    out.shape = ShapeLanes<F>::load(g.shapes.data(), hit.shape);
     out.primitive = hit.primitive;
-    const Records<F, ShapeRecord> shape(g.shapes.data(), out.shape);
+    const ShapeLanes<F>& shape = out.shape;
     const Mask<F> instanced = hit.instance != UInt<F>(kNone);
     Affine<F> place;
     if (any(instanced)) {
@@ -188,7 +187,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
         place = affineAt<F>(g.matrices.data(), instance(&InstanceRecord::firstMatrix), instance(&InstanceRecord::segments), time);
     }
 
-    const Mask<F> isMesh = shape(&ShapeRecord::kind) == UInt<F>(std::uint32_t(ShapeKind::Mesh));
+    const Mask<F> isMesh = shape.kind == UInt<F>(std::uint32_t(ShapeKind::Mesh));
     LocalSurface<F> s;
     if (any(isMesh)) s = meshSurface(g, shape, hit, isMesh);
     if (!all(isMesh)) {
@@ -229,7 +228,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     out.uv = s.uv;
     out.uvPerLength = s.uvPerLength;
 
-    const Mask<F> needsTangent = (shape(&ShapeRecord::flags) & UInt<F>(kShapeNeedsTangent)) != UInt<F>(0u);
+    const Mask<F> needsTangent = shape.has(kShapeNeedsTangent);
     out.frame = Frame<F>::fromNormal(n);
     if (any(needsTangent)) {
         const Vec3<F> t = s.tangent - n * dot(n, s.tangent);

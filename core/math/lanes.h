@@ -347,6 +347,51 @@ inline void loadRows4(const float* base, const Lanes8u& offset, Lanes8f out[4]) 
 }
 
 namespace detail {
+/// Rows become columns.
+inline void transpose8(const __m256 r[8], __m256 out[8]) {
+    __m256 t[8], s[8];
+    for (int i = 0; i < 4; ++i) {
+        t[2 * i] = _mm256_unpacklo_ps(r[2 * i], r[2 * i + 1]);
+        t[2 * i + 1] = _mm256_unpackhi_ps(r[2 * i], r[2 * i + 1]);
+    }
+    for (int i = 0; i < 2; ++i) {
+        s[4 * i] = _mm256_shuffle_ps(t[4 * i], t[4 * i + 2], 0x44);
+        s[4 * i + 1] = _mm256_shuffle_ps(t[4 * i], t[4 * i + 2], 0xEE);
+        s[4 * i + 2] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0x44);
+        s[4 * i + 3] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0xEE);
+    }
+    for (int i = 0; i < 4; ++i) {
+        out[i] = _mm256_permute2f128_ps(s[i], s[i + 4], 0x20);
+        out[i + 4] = _mm256_permute2f128_ps(s[i], s[i + 4], 0x31);
+    }
+}
+}  // namespace detail
+
+/// Eight consecutive floats at base + offset of every lane, as eight lane values.
+inline void loadRows8(const float* base, std::uint32_t offset, float out[8]) {
+    for (int k = 0; k < 8; ++k) out[k] = base[offset + std::uint32_t(k)];
+}
+inline void loadRows8(const float* base, const Lanes8u& offset, Lanes8f out[8]) {
+    alignas(32) std::uint32_t o[8];
+    store(o, offset);
+    __m256 r[8], c[8];
+    for (int i = 0; i < 8; ++i) r[i] = _mm256_loadu_ps(base + o[i]);
+    detail::transpose8(r, c);
+    for (int i = 0; i < 8; ++i) out[i] = Lanes8f(detail::V8f(c[i]));
+}
+/// The lanes of `keep`, each as a row of eight floats, `stride` floats apart from p on. Nothing else is written.
+inline void storeRows8(float* p, std::uint32_t, const float in[8], unsigned keep) {
+    if (keep)
+        for (int k = 0; k < 8; ++k) p[k] = in[k];
+}
+inline void storeRows8(float* p, std::uint32_t stride, const Lanes8f in[8], unsigned keep) {
+    __m256 c[8], r[8];
+    for (int i = 0; i < 8; ++i) c[i] = __m256(in[i].v);
+    detail::transpose8(c, r);
+    for (; keep; keep &= keep - 1, p += stride) _mm256_storeu_ps(p, r[std::countr_zero(keep)]);
+}
+
+namespace detail {
 /// For each 8-bit mask, the permutation that moves its set lanes to the front, in order.
 struct CompressTable {
     alignas(32) std::uint32_t index[256][8];

@@ -13,7 +13,7 @@ namespace penumbra {
 /// broadcast load; otherwise a gather. At most 2^31 words in the table.
 template <class F, class T>
 class Records {
-    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0 && alignof(T) <= 32);
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0);
 
 public:
     Records(const T* base, const UInt<F>& index) : base_(base), index_(index) {
