@@ -7,13 +7,14 @@
 // depends on its own address alone, and lanes, batch size and tile order change no bit.
 //
 // A Shader is the integrator's part, generic over lanes:
-//   template <class F, class M> void shade(Step<F>&, const RayGroup<F>&, const Hit<F>&, const UInt<F>& material) const noexcept;
+//   template <class F, class M> void shade(Step<F>&, RayGroup<F>&, const Hit<F>&, const UInt<F>& material) const noexcept;
 //   template <class F> void miss(Step<F>&, const RayGroup<F>&) const noexcept;
 #pragma once
 
 #include "core/geometry/surface_point.h"
 #include "integrators/path_batch.h"
 
+#include <algorithm>
 #include <xmmintrin.h>
 
 namespace penumbra {
@@ -69,12 +70,13 @@ struct Step {
 
 namespace detail {
 
+/// Groups are filled in place and passed by reference: at 700 bytes a copy costs more than some of the steps.
 template <class F>
-RayGroup<F> gatherGroup(const PathBatch& batch, const RayBuffer& r, const UInt<F>& at, int liveCount, bool hasMotion) {
-    RayGroup<F> g{PathRay<F>::load(r, at), F(0.f), {}, firstLanes<F>(liveCount)};
-    if (hasMotion) g.time = gather(batch.slots.time, g.slot);
+void gatherGroup(RayGroup<F>& g, const PathBatch& batch, const RayBuffer& r, const UInt<F>& at, int liveCount, bool hasMotion) {
+    g.load(r, at);
+    g.time = hasMotion ? gather(batch.slots.time, g.slot) : F(0.f);
     g.address = {gather(batch.slots.seed, g.slot), gather(batch.slots.index, g.slot)};
-    return g;
+    g.live = firstLanes<F>(liveCount);
 }
 
 template <class F>
@@ -120,15 +122,18 @@ private:
         SlotBuffer& s = batch_.slots;
         const std::uint32_t perPixel = samples.end - samples.begin, tileWidth = std::uint32_t(tile.x1 - tile.x0);
         const std::uint32_t filmWidth = std::uint32_t(film_.crop().width());
-        std::uint64_t pixelInTile = first / perPixel;
+        const std::uint64_t firstPixel = first / perPixel;
         std::uint32_t sample = std::uint32_t(first % perPixel);
+        int x = tile.x0 + int(firstPixel % tileWidth), y = tile.y0 + int(firstPixel / tileWidth);
         for (int i = 0; i < count; ++i) {
-            const int x = tile.x0 + int(pixelInTile % tileWidth), y = tile.y0 + int(pixelInTile / tileWidth);
             s.pixel[i] = std::uint32_t(y) * filmWidth + std::uint32_t(x);
             s.sample[i] = samples.begin + sample;
             s.rasterX[i] = float(x + film_.crop().x0);
             s.rasterY[i] = float(y + film_.crop().y0);
-            if (++sample == perPixel) sample = 0, ++pixelInTile;
+            if (++sample == perPixel) {
+                sample = 0;
+                if (++x == tile.x1) x = tile.x0, ++y;
+            }
         }
         for (int i = 0; i < count; i += W) cameraRays(i);
         batch_.live = count;
@@ -187,7 +192,8 @@ private:
         for (int i = begin; i < end; i += W) {
             const int n = end - i < W ? end - i : W;
             const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
-            const RayGroup<F> g = detail::gatherGroup<F>(batch_, r, at, n, scene_.hasMotion);
+            RayGroup<F> g;
+            detail::gatherGroup<F>(g, batch_, r, at, n, scene_.hasMotion);
             if (first) scatter(batch_.slots.covered, g.slot, UInt<F>(1u));
             counts_.groups += 1;
             counts_.liveLanes += std::uint64_t(n);
@@ -199,7 +205,9 @@ private:
         for (int i = begin; i < batch_.live; i += W) {
             const int n = batch_.live - i < W ? batch_.live - i : W;
             const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
-            shader_.template miss<F>(step, detail::gatherGroup<F>(batch_, r, at, n, false));
+            RayGroup<F> g;
+            detail::gatherGroup<F>(g, batch_, r, at, n, false);
+            shader_.template miss<F>(step, g);
         }
     }
 
@@ -216,8 +224,9 @@ private:
             fillPacket(p.ray, row, F(kInfinity), n);
             store(p.hit.geometry, UInt<F>(kNoHit));
             store(p.hit.instance, UInt<F>(kNoHit));
-            if (controls_.recorder) controls_.recorder->nearest(p, live);
-            scene_.accelerator.intersect(p, live, fromCamera ? Coherence::Coherent : Coherence::Incoherent);
+            const Coherence coherence = fromCamera ? Coherence::Coherent : Coherence::Incoherent;
+            if (controls_.recorder) controls_.recorder->nearest(p, live, coherence);
+            scene_.accelerator.intersect(p, live, coherence);
 
             const UInt<F> geometry = load<F>(p.hit.geometry), instance = load<F>(p.hit.instance);
             const Mask<F> met = geometry != UInt<F>(kNoHit);
@@ -287,7 +296,8 @@ private:
             const std::uint32_t key = batch_.key[i];
             return fine ? key : key == materials ? buckets - 1 : scene_.materials.tag(key);
         };
-        int place[kMostBuckets + 1] = {};
+        int place[kMostBuckets + 1];
+        std::fill_n(place, buckets, 0);
         for (int i = 0; i < batch_.live; ++i) ++place[bucket(i)];
         int sum = 0;
         for (std::uint32_t b = 0; b < buckets; ++b) {

@@ -15,7 +15,7 @@ public:
         : maxDepth_(s.maxDepth > 0 ? std::uint32_t(s.maxDepth) : 0u), strategy_(s.strategy), roulette_(s.roulette) {}
 
     template <class F, class M>
-    void shade(Step<F>& step, RayGroup<F> g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
+    void shade(Step<F>& step, RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
         const Scene& scene = step.scene;
         const SurfacePoint<F> at = surfacePoint(scene.geometry, hit, g.origin, g.direction, g.time);
         absorb(scene, g.medium, hit.t, g.throughput);

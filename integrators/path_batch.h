@@ -74,12 +74,19 @@ struct PathRay {
     UInt<F> slot, depth;        ///< depth: scattering events so far
     UInt<F> medium;
 
-    static PathRay load(const RayBuffer& buffer, const UInt<F>& at) {
+    void load(const RayBuffer& buffer, const UInt<F>& at) {
         F a[8], b[8];
         loadRows8(buffer.rows[0], at * UInt<F>(RayBuffer::kStride), a);
         loadRows8(buffer.rows[0], at * UInt<F>(RayBuffer::kStride) + UInt<F>(8u), b);
-        return {{a[0], a[1], a[2]}, {a[4], a[5], a[6]}, {b[0], b[1], b[2]}, b[3], b[4], a[3],
-                floatBits(a[7]), floatBits(b[5]), floatBits(b[6])};
+        origin = {a[0], a[1], a[2]};
+        coneWidth = a[3];
+        direction = {a[4], a[5], a[6]};
+        slot = floatBits(a[7]);
+        throughput = {b[0], b[1], b[2]};
+        bsdfPdf = b[3];
+        etaScale = b[4];
+        depth = floatBits(b[5]);
+        medium = floatBits(b[6]);
     }
     /// The lanes of `keep`, packed from row `at` on.
     void store(RayBuffer& buffer, int at, unsigned keep) const {

@@ -21,10 +21,13 @@ namespace {
 
 constexpr std::uint32_t kVisibleToAll = 0xFFFFFFFFu;
 
+/// Embree's "valid" array of a bit mask.
 struct LiveLanes {
     alignas(32) int valid[8];
     explicit LiveLanes(unsigned live) {
-        for (int i = 0; i < 8; ++i) valid[i] = live >> i & 1u ? -1 : 0;
+        const detail::V8i bit = {1, 2, 4, 8, 16, 32, 64, 128};
+        const detail::V8i set = ((detail::V8i{} + int(live)) & bit) == bit;
+        _mm256_store_si256(reinterpret_cast<__m256i*>(valid), __m256i(set));
     }
 };
 

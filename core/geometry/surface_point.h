@@ -61,8 +61,7 @@ struct LocalSurface {
 };
 
 template <class F>
-LocalSurface<F> meshSurface(const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh) {
-    LocalSurface<F> s;
+void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh) {
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
     const UInt<F> triangle = select(isMesh, shape.first + hit.primitive, UInt<F>(0u));
     F corner[4];
@@ -137,12 +136,10 @@ LocalSurface<F> meshSurface(const Geometry& g, const ShapeLanes<F>& shape, const
             s.tangent = select(given, tangent(i0) * b0 + tangent(i1) * b1 + tangent(i2) * b2, s.tangent);
         }
     }
-    return s;
 }
 
 template <class F>
-LocalSurface<F> quadricSurface(const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& isQuadric,
-                               const Vec3<F>& met, Affine<F>& worldFromObject) {
+void quadricSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& isQuadric, const Vec3<F>& met) {
     // `met` is the hit in the space of the shape's group; the quadric's own matrix leads from its object space to that.
     const UInt<F> row = select(isQuadric, shape.first, UInt<F>(0u));
     const Records<F, QuadricRecord> q(g.quadrics.data(), row);
@@ -155,11 +152,9 @@ LocalSurface<F> quadricSurface(const Geometry& g, const ShapeLanes<F>& shape, co
         return Affine<F>{{r[0][0], r[1][0], r[2][0]}, {r[0][1], r[1][1], r[2][1]}, {r[0][2], r[1][2], r[2][2]},
                          {r[0][3], r[1][3], r[2][3]}};
     };
-    worldFromObject = load(0);
-    const Affine<F> objectFromWorld = load(12);
+    const Affine<F> worldFromObject = load(0), objectFromWorld = load(12);
     const QuadricPoint<F> point = quadricPoint(q, objectFromWorld.point(met));
     const Mask<F> flip = shape.has(kShapeFlipNormal);
-    LocalSurface<F> s;
     s.p = worldFromObject.point(point.p);
     s.error = worldFromObject.pointError(point.p, point.error);
     s.ng = flipSign(flip, worldFromObject.normal(point.normal));
@@ -167,7 +162,6 @@ LocalSurface<F> quadricSurface(const Geometry& g, const ShapeLanes<F>& shape, co
     s.tangent = worldFromObject.vector(point.tangent);
     s.uv = point.uv;
     s.uvPerLength = F(0.f);
-    return s;
 }
 
 }  // namespace detail
@@ -189,7 +183,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
 
     const Mask<F> isMesh = shape.kind == UInt<F>(std::uint32_t(ShapeKind::Mesh));
     LocalSurface<F> s;
-    if (any(isMesh)) s = meshSurface(g, shape, hit, isMesh);
+    if (any(isMesh)) meshSurface(s, g, shape, hit, isMesh);
     if (!all(isMesh)) {
         Vec3<F> met = origin + direction * hit.t;
         if (any(instanced)) {
@@ -199,10 +193,11 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
             const F inverse = F(1.f) / dot(place.x, cx);
             met = select(instanced, Vec3<F>{dot(r, cx) * inverse, dot(r, cy) * inverse, dot(r, cz) * inverse}, met);
         }
-        Affine<F> own;
-        const LocalSurface<F> q = quadricSurface(g, shape, !isMesh, met, own);
-        if (none(isMesh)) s = q;
-        else {
+        if (none(isMesh)) {
+            quadricSurface(s, g, shape, !isMesh, met);
+        } else {
+            LocalSurface<F> q;
+            quadricSurface(q, g, shape, !isMesh, met);
             s.p = select(isMesh, s.p, q.p);
             s.error = select(isMesh, s.error, q.error);
             s.ng = select(isMesh, s.ng, q.ng);
