@@ -42,7 +42,7 @@ struct RenderCounts {
 class RayRecorder {
 public:
     virtual ~RayRecorder() = default;
-    virtual void nearest(const RayHitPacket& rays, unsigned live) = 0;
+    virtual void nearest(const RayHitPacket& rays, unsigned live, Coherence coherence) = 0;
     virtual void shadow(const RayPacket& rays, unsigned live) = 0;
 };
 

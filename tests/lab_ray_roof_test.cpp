@@ -56,8 +56,8 @@ TEST(LabRayRecord, FindsTheHitsOfLiveLanesAlone) {
     RayStore store(RayStore::kBlockBytes);
     RayRecord record(store);
     RayHitPacket rays{parallelRays(), {}};
-    record.nearest(rays, 0xFFu);         // the sphere is met by x = -0.5 and 0.5: lanes 3 and 4
-    record.nearest(rays, 0b0000'1111u);  // lane 3
+    record.nearest(rays, 0xFFu, Coherence::Coherent);           // the sphere is met by x = -0.5 and 0.5: lanes 3 and 4
+    record.nearest(rays, 0b0000'1111u, Coherence::Incoherent);  // lane 3
     RayPacket shadows = parallelRays();
     shadows.far[3] = 3;             // ends before the sphere
     record.shadow(shadows, 0xFFu);  // lane 4

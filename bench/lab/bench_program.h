@@ -6,6 +6,7 @@
 //     return program.run(argc, argv, [&](RenderJob& job, bool json) { return report(...); });
 //
 // Results go to standard output, warnings and errors to standard error; exit codes are those of ErrorKind.
+//
 // Thread safety: none; one a process.
 #pragma once
 

@@ -30,7 +30,7 @@ void replayNearest(const StoredPacket& stored, const Accelerator& accelerator, R
     store(p.hit.geometry, Lanes8u(kNoHit));
     store(p.hit.instance, Lanes8u(kNoHit));
     if constexpr (kMode == ReplayMode::Packets)
-        accelerator.intersect(p, stored.live);
+        accelerator.intersect(p, stored.live, stored.coherence);
     else
         accelerator.intersectSingly(p, stored.live);
     counts.rays += std::uint64_t(std::popcount(stored.live));
@@ -86,13 +86,14 @@ StoredPacket* RayRecord::nextPacket() noexcept {
     return &last_->packets[last_->count++];
 }
 
-void RayRecord::keep(const RayPacket& rays, unsigned live, bool isShadow) noexcept {
+void RayRecord::keep(const RayPacket& rays, unsigned live, bool isShadow, Coherence coherence) noexcept {
     StoredPacket* stored = nextPacket();
     if (!stored) return;
     for (int i = 0; i < StoredPacket::kRows; ++i)
         store(stored->rows[i], load<Lanes8f>(rays.*kStoredRows[i]));
     stored->live = std::uint8_t(live);
     stored->isShadow = isShadow;
+    stored->coherence = coherence;
 }
 
 template <ReplayMode kMode>

@@ -1,12 +1,15 @@
 // RayRecord: the rays of a piece of a render, kept as they were traced, to be traced again and nothing else done.
 //
-// A record keeps every packet as Embree got it: its order, nearest and shadow rays as they took turns, which lanes were
-// live, what stood in the others. So a replay asks Embree for exactly the work that rendering asked for. A packet is
-// copied to the stack before it is traced, because tracing changes it; rendering fills one there as well.
+// A record keeps every packet as Embree got it, in order, nearest and shadow rays as they took turns: which lanes were
+// live, what stood in the others, whether it was said to be coherent. So a replay asks Embree for exactly the work that
+// rendering asked for. A packet is copied to the stack before it is traced, because tracing changes it; rendering fills
+// one there as well.
 //
 // Memory: the blocks of a RayStore, of which there is a fixed number, all asked for beforehand, so that recording
-// allocates nothing. A record that gets no further block keeps no more rays and says so. Thread safety: a store serves
-// any number of records at once. A record is written by one thread and may be replayed by many.
+// allocates nothing. A record that gets no further block keeps no more rays and says so.
+//
+// Thread safety: a store serves any number of records at once. A record is written by one thread and may be replayed
+// by many.
 #pragma once
 
 #include "core/geometry/accelerator.h"
@@ -23,6 +26,7 @@ struct alignas(32) StoredPacket {
     float rows[kRows][kPacketWidth];
     std::uint8_t live;
     bool isShadow;
+    Coherence coherence;  ///< of nearest rays
 };
 
 class RayStore {
@@ -65,15 +69,19 @@ class RayRecord final : public RayRecorder {
 public:
     explicit RayRecord(RayStore& store) : store_(&store) {}
 
-    void nearest(const RayHitPacket& rays, unsigned live) noexcept override { keep(rays.ray, live, false); }
-    void shadow(const RayPacket& rays, unsigned live) noexcept override { keep(rays, live, true); }
+    void nearest(const RayHitPacket& rays, unsigned live, Coherence coherence) noexcept override {
+        keep(rays.ray, live, false, coherence);
+    }
+    void shadow(const RayPacket& rays, unsigned live) noexcept override {
+        keep(rays, live, true, Coherence::Incoherent);
+    }
     /// No ray is missing.
     bool isComplete() const { return isComplete_; }
 
     ReplayCounts replay(const Accelerator& accelerator, ReplayMode mode) const noexcept;
 
 private:
-    void keep(const RayPacket& rays, unsigned live, bool isShadow) noexcept;
+    void keep(const RayPacket& rays, unsigned live, bool isShadow, Coherence coherence) noexcept;
     StoredPacket* nextPacket() noexcept;
     template <ReplayMode kMode>
     ReplayCounts replayAll(const Accelerator& accelerator) const noexcept;

@@ -8,6 +8,7 @@
 //
 // What is measured are whole tiles, with all their samples (at most kMostSamplesPerPixel a pixel), from all over the
 // picture: as many as the memory for the rays holds. The three share out the same tiles to threads in the same way.
+//
 // Thread safety: one measurement at a time; it uses the threads that the process is limited to.
 #pragma once
 

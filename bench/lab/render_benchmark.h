@@ -1,8 +1,9 @@
 // The render benchmark: how fast a scene renders, whole, the way `penumbra render` does it.
 //
 // The first renders are not timed: they bring files, code and the film's pages into memory. Every render traces the
-// same rays, so the spread of the times is the machine's. Thread safety: one benchmark at a time; it uses the threads
-// that the process is limited to.
+// same rays, so the spread of the times is the machine's.
+//
+// Thread safety: one benchmark at a time; it uses the threads that the process is limited to.
 #pragma once
 
 #include "app/batch/render_job.h"

@@ -1,7 +1,9 @@
 // What the benchmark programs print: lines for people, and one JSON object for programs.
 //
-// The JSON carries "schema", which grows by one when a field changes its meaning or goes away; docs/BENCHMARKS.md lists
-// the fields. Thread safety: pure functions.
+// The JSON carries "schema", which grows by one when a field changes its meaning or goes away; docs/BENCHMARKS.md
+// lists the fields.
+//
+// Thread safety: pure functions.
 #pragma once
 
 #include "bench/lab/ray_roof.h"
