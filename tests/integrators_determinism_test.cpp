@@ -23,7 +23,7 @@ using namespace test;
 class Workers final : public RayRecorder {
 public:
     explicit Workers(std::size_t expected) : expected_(expected) {}
-    void nearest(const RayHitPacket&, unsigned) override {
+    void nearest(const RayHitPacket&, unsigned, Coherence) override {
         std::unique_lock lock(mutex_);
         if (!threads_.insert(std::this_thread::get_id()).second) return;
         changed_.notify_all();
