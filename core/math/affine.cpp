@@ -40,13 +40,27 @@ double rotationAngle(const std::array<double, 4>& a, const std::array<double, 4>
     return 2 * std::acos(std::min(std::fabs(d), 1.0));
 }
 
+/// The largest change of an entry, in terms of the largest entry.
+double stretchChange(const Matrix4& a, const Matrix4& b) {
+    double change = 0, largest = 0;
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c) {
+            change = std::fmax(change, std::fabs(b.m[r][c] - a.m[r][c]));
+            largest = std::fmax(largest, std::fmax(std::fabs(a.m[r][c]), std::fabs(b.m[r][c])));
+        }
+    return largest > 0 ? change / largest : 0;
+}
+
 }  // namespace
 
 std::vector<Matrix4> motionMatrices(const Matrix4& start, const Matrix4& end) {
     if (start == end) return {start};
     const Decomposition a = decompose(start), b = decompose(end);
-    constexpr double kHalfDegree = 0.5 * 3.14159265358979323846 / 180;
-    const int segments = std::clamp(int(std::ceil(rotationAngle(a.rotation, b.rotation) / kHalfDegree)), 1, 128);
+    // A segment of angle x strays by x^2 / 8 from its turn, and by x y / 4 where the stretch changes by y meanwhile.
+    constexpr double kHalfDegree = 0.5 * 3.14159265358979323846 / 180, kStray = 1e-5;
+    const double angle = rotationAngle(a.rotation, b.rotation);
+    const double forStretch = std::sqrt(angle * stretchChange(a.stretch, b.stretch) / (4 * kStray));
+    const int segments = int(std::clamp(std::ceil(std::fmax(angle / kHalfDegree, forStretch)), 1.0, 128.0));
     std::vector<Matrix4> out;
     for (int i = 0; i <= segments; ++i) {
         const double t = double(i) / segments;

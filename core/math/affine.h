@@ -66,8 +66,8 @@ Affine<F> affineAt(const AffineRecord* table, const UInt<F>& first, const UInt<F
 }
 
 /// Samples the motion between two matrices (translation and stretch lerped, rotation slerped) so finely that linear
-/// interpolation strays from it by at most about 1e-5 of the object's size (half a degree a segment, at most 128 segments,
-/// Embree's limit). One matrix where both are equal.
+/// interpolation strays from it by at most about 1e-5 of the object's size (half a degree a segment, less where the object is
+/// stretched meanwhile; at most 128 segments, Embree's limit). One matrix where both are equal.
 std::vector<Matrix4> motionMatrices(const Matrix4& start, const Matrix4& end);
 
 }  // namespace penumbra
