@@ -2,7 +2,8 @@
 //
 // Conventions: world space. `ng` is the unit geometric normal on the side that the shape's orientation calls outside (it
 // decides emission, media and what "outside a dielectric" means); the shading frame's normal lies in its hemisphere.
-// `error` bounds the rounding error of p per component; rays leave from offsetOrigin(), which is beyond that bound.
+// `error` bounds, per component, how far p is off the surface by rounding (along it, points next to an edge of a triangle
+// are moved inwards by about as much); rays leave from offsetOrigin(), which is beyond that bound.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -60,8 +61,21 @@ struct LocalSurface {
     F uvPerLength;
 };
 
+/// What the rounding of place.point(p) amounts to in the space of p, where no coordinate of p is beyond `coordinate`.
 template <class F>
-void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh) {
+F roundingInside(const Affine<F>& place, F coordinate) {
+    const Vec3<F> rounding = place.pointError({coordinate, coordinate, coordinate}, {F(0.f), F(0.f), F(0.f)});
+    // Times the norm of the inverse matrix, whose rows are the cross products of the columns over the determinant.
+    const Vec3<F> rowX = cross(place.y, place.z), rowY = cross(place.z, place.x), rowZ = cross(place.x, place.y);
+    const auto size = [](const Vec3<F>& row) { return abs(row.x) + abs(row.y) + abs(row.z); };
+    const F norm = max(size(rowX), max(size(rowY), size(rowZ))) / abs(dot(place.x, rowX));
+    return maxComponent(rounding) * norm;
+}
+
+/// `place`: of instanced lanes the matrix from here to the world.
+template <class F>
+void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh,
+                 const Affine<F>& place, const Mask<F>& instanced) {
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
     const UInt<F> triangle = select(isMesh, shape.first + hit.primitive, UInt<F>(0u));
     F corner[4];
@@ -72,21 +86,24 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
     s.p = p0 * b0 + p1 * b1 + p2 * b2;
     // The plane that Embree intersected is known to a few roundings of the corners' coordinates. One bound for all axes: a
     // plane through the origin has coordinates of exactly 0 across it, and still a ray must not start in it.
-    const F largest = max(maxComponent(abs(p0)), max(maxComponent(abs(p1)), maxComponent(abs(p2)))) * F(12 * 0x1p-24f);
-    s.error = {largest, largest, largest};
+    const F largest = max(maxComponent(abs(p0)), max(maxComponent(abs(p1)), maxComponent(abs(p2))));
+    const F error = largest * F(12 * 0x1p-24f);
+    s.error = {error, error, error};
     const Vec3<F> e1 = p1 - p0, e2 = p2 - p0;
     const Mask<F> flip = shape.has(kShapeFlipNormal);
     const Vec3<F> faceNormal = cross(e1, e2);
     // Nor may a ray start beyond an edge, where the next face of a closed room is behind it: points keep off the edges by
     // their error. With n the face normal (twice the area long), barycentric b is b |n| / |edge| away from its edge.
+    F margin = error;
+    if (any(instanced)) margin = margin + select(instanced, roundingInside(place, largest), F(0.f));
     const Vec3<F> e3 = e2 - e1;
     const F longestSquared = max(dot(e1, e1), max(dot(e2, e2), dot(e3, e3)));
     const F normalSquared = dot(faceNormal, faceNormal);
     const F nearest = max(min(b0, min(b1, b2)), F(0.f));
-    const Mask<F> onEdge = nearest * nearest * normalSquared < largest * largest * longestSquared;
+    const Mask<F> onEdge = nearest * nearest * normalSquared < margin * margin * longestSquared;
     if (any(onEdge)) {
         // Towards the centroid, which is a third of the height away from each edge.
-        const F part = min(F(3.f) * largest * sqrt(longestSquared / normalSquared), F(1.f));
+        const F part = min(F(3.f) * margin * sqrt(longestSquared / normalSquared), F(1.f));
         const Vec3<F> centroid = (p0 + p1 + p2) * F(1.f / 3.f);
         s.p = select(onEdge, s.p + (centroid - s.p) * part, s.p);
     }
@@ -183,7 +200,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
 
     const Mask<F> isMesh = shape.kind == UInt<F>(std::uint32_t(ShapeKind::Mesh));
     LocalSurface<F> s;
-    if (any(isMesh)) meshSurface(s, g, shape, hit, isMesh);
+    if (any(isMesh)) meshSurface(s, g, shape, hit, isMesh, place, instanced);
     if (!all(isMesh)) {
         Vec3<F> met = origin + direction * hit.t;
         if (any(instanced)) {
