@@ -36,6 +36,7 @@ double filterValue(const FilterSettings& s, double radius, double x) {
 
 Filter::Axis::Axis(const FilterSettings& s, double r)
     : radius(float(r)), isPositive(s.kind != FilterKind::Mitchell && s.kind != FilterKind::Sinc) {
+    if (s.kind == FilterKind::Box) return;   // sampled without a table
     // The distribution function of |f| on a fine grid, by Simpson's rule; signs are taken as constant within a fine cell,
     // which is wrong only in those that hold a zero, where |f| is next to nothing.
     constexpr std::size_t kFine = 1 << 16;

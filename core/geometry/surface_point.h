@@ -59,6 +59,7 @@ struct LocalSurface {
     Vec3<F> p, error, ng, ns, tangent;   ///< ng, ns not normalised
     Vec2<F> uv;
     F uvPerLength;
+    bool isFlat;                         ///< ns is ng in every lane
 };
 
 /// What the rounding of place.point(p) amounts to in the space of p, where no coordinate of p is beyond `coordinate`.
@@ -111,7 +112,8 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
     s.ns = s.ng;
     const UInt<F> normalShift = shape.normalShift;
     const Mask<F> smooth = isMesh & (normalShift != UInt<F>(kNone));
-    if (any(smooth)) {
+    s.isFlat = none(smooth);
+    if (!s.isFlat) {
         const UInt<F> shift = select(smooth, normalShift, UInt<F>(0u));
         const auto normal = [&](const UInt<F>& i) { return loadVertex<F>(g.normals, select(smooth, i + shift, UInt<F>(0u))); };
         const Vec3<F> n = normal(i0) * b0 + normal(i1) * b1 + normal(i2) * b2;
@@ -176,6 +178,7 @@ void quadricSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& 
     s.error = worldFromObject.pointError(point.p, point.error);
     s.ng = flipSign(flip, worldFromObject.normal(point.normal));
     s.ns = s.ng;
+    s.isFlat = true;
     s.tangent = worldFromObject.vector(point.tangent);
     s.uv = point.uv;
     s.uvPerLength = F(0.f);
@@ -222,6 +225,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
             s.tangent = select(isMesh, s.tangent, q.tangent);
             s.uv = {select(isMesh, s.uv.x, q.uv.x), select(isMesh, s.uv.y, q.uv.y)};
             s.uvPerLength = select(isMesh, s.uvPerLength, q.uvPerLength);
+            s.isFlat = s.isFlat & q.isFlat;
         }
     }
     if (any(instanced)) {
@@ -234,9 +238,12 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     out.p = s.p;
     out.error = s.error;
     out.ng = normalize(s.ng);
-    Vec3<F> n = normalize(s.ns);
-    // A shading normal on the wrong side of the face (or a vanishing one) would turn the surface inside out.
-    n = flipSign(dot(n, out.ng) < F(0.f), n);
+    Vec3<F> n = out.ng;
+    if (!s.isFlat) {
+        n = normalize(s.ns);
+        // A shading normal on the wrong side of the face would turn the surface inside out.
+        n = flipSign(dot(n, out.ng) < F(0.f), n);
+    }
     out.uv = s.uv;
     out.uvPerLength = s.uvPerLength;
 

@@ -348,7 +348,7 @@ inline void loadRows4(const float* base, const Lanes8u& offset, Lanes8f out[4]) 
 
 namespace detail {
 /// Rows become columns.
-inline void transpose8(const __m256 r[8], __m256 out[8]) {
+[[gnu::always_inline]] inline void transpose8(const __m256 r[8], __m256 out[8]) {
     __m256 t[8], s[8];
     for (int i = 0; i < 4; ++i) {
         t[2 * i] = _mm256_unpacklo_ps(r[2 * i], r[2 * i + 1]);
@@ -371,7 +371,7 @@ inline void transpose8(const __m256 r[8], __m256 out[8]) {
 inline void loadRows8(const float* base, std::uint32_t offset, float out[8]) {
     for (int k = 0; k < 8; ++k) out[k] = base[offset + std::uint32_t(k)];
 }
-inline void loadRows8(const float* base, const Lanes8u& offset, Lanes8f out[8]) {
+[[gnu::always_inline]] inline void loadRows8(const float* base, const Lanes8u& offset, Lanes8f out[8]) {
     alignas(32) std::uint32_t o[8];
     store(o, offset);
     __m256 r[8], c[8];
@@ -384,10 +384,14 @@ inline void storeRows8(float* p, std::uint32_t, const float in[8], unsigned keep
     if (keep)
         for (int k = 0; k < 8; ++k) p[k] = in[k];
 }
-inline void storeRows8(float* p, std::uint32_t stride, const Lanes8f in[8], unsigned keep) {
+[[gnu::always_inline]] inline void storeRows8(float* p, std::uint32_t stride, const Lanes8f in[8], unsigned keep) {
     __m256 c[8], r[8];
     for (int i = 0; i < 8; ++i) c[i] = __m256(in[i].v);
     detail::transpose8(c, r);
+    if (keep == 0xFFu) {   // the usual case, and without a detour through memory
+        for (int i = 0; i < 8; ++i) _mm256_storeu_ps(p + std::uint32_t(i) * stride, r[i]);
+        return;
+    }
     for (; keep; keep &= keep - 1, p += stride) _mm256_storeu_ps(p, r[std::countr_zero(keep)]);
 }
 
