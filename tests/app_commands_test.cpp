@@ -8,13 +8,12 @@
 namespace penumbra {
 namespace {
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// A wrong command line: nothing on standard output, one line of error with these words, and the code.
 void expectRefused(const std::vector<std::string>& arguments, int code, const std::string& words) {
     const ProgramRun run = runProgram(arguments);
     std::string line = "penumbra";
-    for (const std::string& a : arguments) line += " " + a;
+    for (const std::string& a : arguments)
+        line += " " + a;
     EXPECT_EQ(run.code, code) << line << "\n" << run.err;
     EXPECT_EQ(run.out, "") << line;
     EXPECT_TRUE(run.err.starts_with("error: ")) << line << "\n" << run.err;
@@ -33,13 +32,15 @@ TEST(CommandLine, HelpOfEveryCommandHasUsageDefaultsAndExamples) {
     }
     const ProgramRun program = runProgram({"--help"});
     EXPECT_EQ(program.code, 0);
-    for (const char* command : {"  render ", "  info ", "  list ", "  convert "}) EXPECT_TRUE(contains(program.out, command));
+    for (const char* command : {"  render ", "  info ", "  list ", "  convert "})
+        EXPECT_TRUE(contains(program.out, command));
 }
 
 TEST(CommandLine, VersionNamesTheLibraries) {
     const ProgramRun run = runProgram({"--version"});
     EXPECT_EQ(run.code, 0);
-    for (const char* library : {"penumbra ", "Embree ", "oneTBB ", "OpenImageIO ", "OpenEXR ", "OpenColorIO ", "OpenSSL ", "zlib "})
+    for (const char* library :
+         {"penumbra ", "Embree ", "oneTBB ", "OpenImageIO ", "OpenEXR ", "OpenColorIO ", "OpenSSL ", "zlib "})
         EXPECT_TRUE(contains(run.out, library)) << run.out;
 }
 
@@ -58,8 +59,10 @@ TEST(CommandLine, WrongUsageNamesTheNearest) {
 TEST(CommandLine, ValuesAreChecked) {
     expectRefused({"render", "x.pbrt", "--spp"}, 64, "--spp");
     for (const char* value : {"0", "-1", "1e9x", "", "4.5", "99999999999999999999", " 4"})
-        expectRefused({"render", "x.pbrt", "--spp", value}, 64, "--spp: '" + std::string(value) + "' is not a whole number from 1 to ");
-    for (const char* value : {"0", "-1", "1000000"}) expectRefused({"render", "x.pbrt", "-t", value}, 64, "--nthreads: ");
+        expectRefused({"render", "x.pbrt", "--spp", value}, 64,
+                      "--spp: '" + std::string(value) + "' is not a whole number from 1 to ");
+    for (const char* value : {"0", "-1", "1000000"})
+        expectRefused({"render", "x.pbrt", "-t", value}, 64, "--nthreads: ");
     expectRefused({"render", "x.pbrt", "--resolution", "640"}, 64, "--resolution: '640'");
     expectRefused({"render", "x.pbrt", "--resolution", "0x5"}, 64, "--resolution: '0'");
     expectRefused({"render", "x.pbrt", "--seed", "4294967296"}, 64, "--seed: ");
@@ -105,9 +108,10 @@ TEST(CommandLine, OutputNeverReplacesAnAssetOfTheScene) {
     const std::string plain = folder.file("plain.pbrt", kSmallScene);
     ASSERT_EQ(runProgram({"render", plain, "-o", picture, "--quiet"}).code, 0);
     const std::string bytes = readBytes(picture);
-    const std::string scene = folder.file("scene.pbrt", std::string("Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n") +
-                                                            "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"sky.png\"\n" +
-                                                            "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n");
+    const std::string scene = folder.file(
+        "scene.pbrt", std::string("Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8\n") +
+                          "WorldBegin\nTexture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"sky.png\"\n" +
+                          "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n");
     const ProgramRun run = runProgram({"render", scene, "-o", picture});
     EXPECT_EQ(run.code, 73);
     EXPECT_TRUE(contains(run.err, "is a file of the scene")) << run.err;
@@ -144,8 +148,8 @@ TEST(CommandLine, OutputToADeviceThatIsFullIsAnErrorAndToAReaderThatLeftIsNone) 
 TEST(CommandLine, ListGivesNamesParametersAndJson) {
     const ProgramRun all = runProgram({"list"});
     EXPECT_EQ(all.code, 0);
-    for (const char* name : {"samplers", "  sobol ", "materials", "  diffuse ", "lights", "  infinite ", "integrators", "  path ", "filters",
-                             "  mitchell ", "textures", "  imagemap "})
+    for (const char* name : {"samplers", "  sobol ", "materials", "  diffuse ", "lights", "  infinite ", "integrators",
+                             "  path ", "filters", "  mitchell ", "textures", "  imagemap "})
         EXPECT_TRUE(contains(all.out, name)) << name << all.out;
     EXPECT_FALSE(contains(all.out, "\"integer pixelsamples\"")) << all.out;
     const ProgramRun one = runProgram({"list", "sampler", "sobol"});
@@ -174,7 +178,8 @@ TEST(CommandLine, InfoSaysWhatIsInAScene) {
 
 TEST(CommandLine, WarningsStandBeforeErrorsAndStrictMakesThemErrors) {
     const TemporaryFolder folder;
-    const std::string scene = folder.file("scene.pbrt", std::string(kSmallScene) + "Shape \"sphere\" \"float radios\" 1\n");
+    const std::string scene =
+        folder.file("scene.pbrt", std::string(kSmallScene) + "Shape \"sphere\" \"float radios\" 1\n");
     const ProgramRun run = runProgram({"info", scene});
     EXPECT_EQ(run.code, 0);
     EXPECT_TRUE(run.err.starts_with("warning: " + scene + ":")) << run.err;

@@ -17,14 +17,17 @@ protected:
 
     /// Four pixels: black, a middle grey, a colour, and one beyond white; a layer SE and a channel of counts.
     void SetUp() override {
-        const float planes[6][4] = {{0, 0.18f, 0.5f, 4}, {0, 0.18f, 0.25f, 4}, {0, 0.18f, 0.125f, 4}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+        const float planes[6][4] = {{0, 0.18f, 0.5f, 4}, {0, 0.18f, 0.25f, 4}, {0, 0.18f, 0.125f, 4},
+                                    {1, 0, 0, 0},        {0, 1, 0, 0},         {0, 0, 1, 0}};
         ExrHeader header;
         header.dataWindow = header.displayWindow = {0, 0, 4, 1};
         header.channels = {{"R"}, {"G"}, {"B"}, {"SE.R"}, {"SE.G"}, {"SE.B"}, {"samples", ExrChannel::Type::Uint}};
         header.colorSpace = &srgbColorSpace();
         writeExr(exr, header, [&](const ExrBlock& block) {
-            for (std::size_t c = 0; c < 6; ++c) std::copy(planes[c], planes[c] + 4, block.floats[c].begin());
-            for (std::uint32_t x = 0; x < 4; ++x) block.uints[6][x] = x;
+            for (std::size_t c = 0; c < 6; ++c)
+                std::copy(planes[c], planes[c] + 4, block.floats[c].begin());
+            for (std::uint32_t x = 0; x < 4; ++x)
+                block.uints[6][x] = x;
         });
     }
 
@@ -74,10 +77,13 @@ TEST_F(ConvertCommand, ViewsOfTheBuiltInConfiguration) {
     const ProgramRun views = runProgram({"convert", "--list-views"});
     EXPECT_EQ(views.code, 0);
     EXPECT_EQ(views.out, "sRGB: Standard, ACES, Raw\n");
-    expectPixel(convert("a.png", {"--view", "Raw", "--bits", "16"}), 2, [] {
-        const TransferFunction curve = TransferFunction::srgb();
-        return Rgb{curve.decode(0.5f), curve.decode(0.25f), curve.decode(0.125f)};
-    }(), 1e-4f);
+    expectPixel(
+        convert("a.png", {"--view", "Raw", "--bits", "16"}), 2,
+        [] {
+            const TransferFunction curve = TransferFunction::srgb();
+            return Rgb{curve.decode(0.5f), curve.decode(0.25f), curve.decode(0.125f)};
+        }(),
+        1e-4f);
     EXPECT_EQ(runProgram({"convert", exr, folder.path("b.png"), "--view", "Nope"}).code, 64);
     EXPECT_EQ(runProgram({"convert", exr, folder.path("b.png"), "--ocio", folder.path("no.ocio")}).code, 66);
 }

@@ -4,8 +4,8 @@
 #include "tests/run_program.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <cmath>
@@ -14,8 +14,6 @@
 
 namespace penumbra {
 namespace {
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 class RenderCommand : public testing::Test {
 protected:
@@ -65,10 +63,12 @@ TEST_F(RenderCommand, OrderOfOptionsDoesNotMatter) {
 }
 
 TEST_F(RenderCommand, TheHeaderRepeatsThePicture) {
-    const std::string bytes = render("a.exr", {"--spp", "8", "--resolution", "20x10", "--seed", "7", "--strategy", "bsdf", "-t", "1"});
+    const std::string bytes =
+        render("a.exr", {"--spp", "8", "--resolution", "20x10", "--seed", "7", "--strategy", "bsdf", "-t", "1"});
     const ExrFile file = readExr(folder.path("a.exr"));
     EXPECT_EQ(file.header.dataWindow.width(), 20);
-    for (const char* channel : {"R", "G", "B", "A", "SE.R", "SE.G", "SE.B"}) EXPECT_TRUE(file.find(channel)) << channel;
+    for (const char* channel : {"R", "G", "B", "A", "SE.R", "SE.G", "SE.B"})
+        EXPECT_TRUE(file.find(channel)) << channel;
     const nlohmann::json recipe = recipeOf(file);
     EXPECT_EQ(recipe.at("samples"), (nlohmann::json{0, 8}));
     EXPECT_EQ(recipe.at("seed"), 7);
@@ -89,7 +89,8 @@ TEST_F(RenderCommand, ReplayPrintsWhatThePictureHolds) {
     const ExrFile file = readExr(folder.path("a.exr"));
     int lit = 0;
     for (const auto& [x, y] : {std::pair{0, 0}, {16, 12}, {17, 15}, {31, 23}, {16, 3}}) {
-        const ProgramRun run = runProgram({"render", scene, "--spp", "1", "--pixel", std::to_string(x) + "," + std::to_string(y), "--sample", "0"});
+        const ProgramRun run = runProgram(
+            {"render", scene, "--spp", "1", "--pixel", std::to_string(x) + "," + std::to_string(y), "--sample", "0"});
         EXPECT_EQ(run.code, 0) << run.err;
         std::istringstream values(run.out);
         for (const char* channel : {"R", "G", "B"}) {
@@ -123,7 +124,8 @@ TEST_F(RenderCommand, ReadsStandardInputWithTheSameHash) {
     ProgramSurroundings piped;
     piped.input = kSmallScene;
     ASSERT_EQ(runProgram({"render", "-", "-o", folder.path("b.exr"), "--quiet"}, piped).code, 0);
-    EXPECT_EQ(recipeOf(readExr(folder.path("b.exr"))).at("scene_sha256"), recipeOf(readExr(folder.path("a.exr"))).at("scene_sha256"));
+    EXPECT_EQ(recipeOf(readExr(folder.path("b.exr"))).at("scene_sha256"),
+              recipeOf(readExr(folder.path("a.exr"))).at("scene_sha256"));
 }
 
 TEST_F(RenderCommand, SaysItsProgressAndWhatItWrote) {
@@ -175,9 +177,11 @@ TEST_F(RenderCommand, ThreadsComeFromTheSchedulerWhereNobodyAsks) {
 
 TEST_F(RenderCommand, InvalidSamplesAreReportedWithTheCommandsThatReplayThem) {
     // A light beyond the range of the film's sums.
-    const std::string bright = folder.file("bright.pbrt", "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 3\n"
-                                                          "Sampler \"sobol\" \"integer pixelsamples\" 2\nWorldBegin\n"
-                                                          "LightSource \"infinite\" \"rgb L\" [1e30 1e30 1e30]\n");
+    const std::string bright =
+        folder.file("bright.pbrt",
+                    "Camera \"perspective\"\nFilm \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 3\n"
+                    "Sampler \"sobol\" \"integer pixelsamples\" 2\nWorldBegin\n"
+                    "LightSource \"infinite\" \"rgb L\" [1e30 1e30 1e30]\n");
     const std::vector<std::string> arguments{"render", bright, "-o", folder.path("a.exr")};
     const ProgramRun run = runProgram(arguments);
     EXPECT_EQ(run.code, 0);
@@ -203,7 +207,8 @@ std::vector<std::string> longRender(const std::string& scene, const std::string&
 /// Waits until that is true, for a minute at most.
 void waitUntil(const std::function<bool()>& isTrue) {
     using namespace std::chrono_literals;
-    for (int i = 0; i < 1200 && !isTrue(); ++i) std::this_thread::sleep_for(50ms);
+    for (int i = 0; i < 1200 && !isTrue(); ++i)
+        std::this_thread::sleep_for(50ms);
 }
 
 TEST_F(RenderCommand, SignalsEndItWithNoPictureAndNothingLeftBehind) {
@@ -221,7 +226,7 @@ TEST_F(RenderCommand, SignalsEndItWithNoPictureAndNothingLeftBehind) {
 }
 
 TEST_F(RenderCommand, ASignalWhileTheSceneIsReadEndsItAtOnce) {
-    ProgramSurroundings endless;   // a pipe that nobody closes or writes to
+    ProgramSurroundings endless;  // a pipe that nobody closes or writes to
     endless.inChild = [] {
         int ends[2];
         if (::pipe(ends) != 0 || ::dup2(ends[0], STDIN_FILENO) < 0) ::_exit(126);

@@ -40,7 +40,8 @@ TEST(SceneInputs, AreTheTextsAndTheFilesThatParametersName) {
     const SceneFolder scene;
     const SceneInputs inputs = scene.inputs();
     EXPECT_EQ(inputs.texts, (std::vector{scene.folder.path("scene.pbrt"), scene.folder.path("part.pbrt")}));
-    EXPECT_EQ(std::set(inputs.assets.begin(), inputs.assets.end()), (std::set{scene.folder.path("image.png"), scene.folder.path("eta.spd")}));
+    EXPECT_EQ(std::set(inputs.assets.begin(), inputs.assets.end()),
+              (std::set{scene.folder.path("image.png"), scene.folder.path("eta.spd")}));
     EXPECT_EQ(inputs.hash.size(), 64u);
 }
 

@@ -25,7 +25,7 @@ TEST(Sha256, DoesNotDependOnHowBytesAreCut) {
     Sha256 digest;
     std::size_t left = 1000000;
     for (std::size_t i = 0; left > 0; ++i) {
-        const std::size_t size = std::min(left, i % 7 * 100 + i % 64);   // 0 among them
+        const std::size_t size = std::min(left, i % 7 * 100 + i % 64);  // 0 among them
         digest.add(std::string(size, 'a'));
         left -= size;
     }

@@ -16,7 +16,7 @@
 namespace penumbra {
 
 struct ProgramRun {
-    int code = 0;   ///< the exit code; 1000 + signal where a signal ended it
+    int code = 0;  ///< the exit code; 1000 + signal where a signal ended it
     std::string out, err;
 };
 
@@ -61,7 +61,8 @@ public:
         int status = 0;
         ::waitpid(process_, &status, 0);
         process_ = 0;
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), readBytes(files_.path("out")), readBytes(files_.path("err"))};
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), readBytes(files_.path("out")),
+                readBytes(files_.path("err"))};
     }
 
 private:
@@ -71,15 +72,19 @@ private:
         ::close(opened);
     }
 
-    [[noreturn]] void runChild(const std::vector<std::string>& arguments, const ProgramSurroundings& surroundings) const {
+    [[noreturn]] void runChild(const std::vector<std::string>& arguments,
+                               const ProgramSurroundings& surroundings) const {
         redirect(files_.path("in"), O_RDONLY, STDIN_FILENO);
         redirect(files_.path("out"), O_WRONLY | O_CREAT, STDOUT_FILENO);
         redirect(files_.path("err"), O_WRONLY | O_CREAT, STDERR_FILENO);
-        for (const char* variable : {"OCIO", "SLURM_CPUS_PER_TASK", "CUE_THREADS"}) ::unsetenv(variable);
-        for (const auto& [name, value] : surroundings.environment) ::setenv(name.c_str(), value.c_str(), 1);
+        for (const char* variable : {"OCIO", "SLURM_CPUS_PER_TASK", "CUE_THREADS"})
+            ::unsetenv(variable);
+        for (const auto& [name, value] : surroundings.environment)
+            ::setenv(name.c_str(), value.c_str(), 1);
         if (!surroundings.folder.empty() && ::chdir(surroundings.folder.c_str()) != 0) ::_exit(126);
         std::vector<char*> words{const_cast<char*>(PENUMBRA_PROGRAM)};
-        for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+        for (const std::string& word : arguments)
+            words.push_back(const_cast<char*>(word.c_str()));
         words.push_back(nullptr);
         if (surroundings.inChild) surroundings.inChild();
         ::execv(PENUMBRA_PROGRAM, words.data());
@@ -92,6 +97,10 @@ private:
 
 inline ProgramRun runProgram(const std::vector<std::string>& arguments, const ProgramSurroundings& surroundings = {}) {
     return StartedProgram(arguments, surroundings).wait();
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
 }
 
 /// A lit sphere on nothing, 32 x 24 pixels, 4 samples each, to film.exr.

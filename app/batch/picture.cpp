@@ -8,8 +8,6 @@
 #include "core/color/display.h"
 #include "core/image/image_io.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 namespace penumbra {
@@ -69,13 +67,13 @@ std::string RenderJob::writePicture(const std::string& path) const {
     std::vector<float> rgb;
     rgb.reserve(film_.pixelCount() * 3);
     for (std::size_t i = 0; i < film_.pixelCount(); ++i)
-        for (const double v : film_.estimate(i).mean) rgb.push_back(float(v));
+        for (const double v : film_.estimate(i).mean)
+            rgb.push_back(float(v));
     std::string through;
     if (imageFileKind(path) == ImageFileKind::DisplayEncoded) {
         const DisplayTransform display({}, *findColorSpace(scene_.film.colorSpace));
         display.apply(rgb);
-        through = fmt::format("display {}, view {} of the OpenColorIO configuration {}", quote(display.display()), quote(display.view()),
-                              display.configuration());
+        through = display.description();
     }
     writeImage(path, film_.crop().width(), film_.crop().height(), rgb);
     return through;
@@ -86,12 +84,15 @@ void checkPicturePath(const std::string& path) {
     if (path.empty() || fs::is_directory(path, ignored))
         throw Error(ErrorKind::CannotCreate, quote(path) + ": a picture needs the name of a file");
     if (!isExr(path) && imageFileKind(path) == ImageFileKind::Unknown)
-        throw Error(ErrorKind::Usage, pathText(path) + ": unknown kind of picture; known extensions: exr, png, jpg, tif, hdr, pfm");
+        throw Error(ErrorKind::Usage,
+                    pathText(path) + ": unknown kind of picture; known extensions: exr, png, jpg, tif, hdr, pfm");
     const fs::path folder = fs::path(path).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, ignored))
-        throw Error(ErrorKind::CannotCreate, pathText(path) + ": there is no folder " + quote(folder.string(), path.size()));
+        throw Error(ErrorKind::CannotCreate,
+                    pathText(path) + ": there is no folder " + quote(folder.string(), path.size()));
     const AtomicFile attempt(path);
-    if (imageFileKind(path) == ImageFileKind::DisplayEncoded) DisplayTransform({}, srgbColorSpace());   // $OCIO may be wrong
+    if (imageFileKind(path) == ImageFileKind::DisplayEncoded)
+        DisplayTransform({}, srgbColorSpace());  // $OCIO may be wrong
 }
 
 void checkKeepsInputs(const std::string& path, const SceneInputs& inputs) {
@@ -99,7 +100,8 @@ void checkKeepsInputs(const std::string& path, const SceneInputs& inputs) {
         for (const std::string& file : *files) {
             std::error_code different;
             if (fs::equivalent(path, file, different))
-                throw Error(ErrorKind::CannotCreate, pathText(path) + ": is a file of the scene and is not overwritten");
+                throw Error(ErrorKind::CannotCreate,
+                            pathText(path) + ": is a file of the scene and is not overwritten");
         }
 }
 

@@ -12,16 +12,20 @@ namespace {
 
 /// As a shell reads it back.
 std::string shellQuoted(const std::string& word) {
-    constexpr std::string_view kPlain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+:=,@%";
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-+:=,@%";
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
     std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
 
-const char* lightSamplingName(bool classicArea) { return classicArea ? "area" : "solid-angle"; }
-const char* intersectionName(IntersectionMode mode) { return mode == IntersectionMode::Robust ? "robust" : "fast"; }
+const char* lightSamplingName(bool classicArea) {
+    return classicArea ? "area" : "solid-angle";
+}
+const char* intersectionName(IntersectionMode mode) {
+    return mode == IntersectionMode::Robust ? "robust" : "fast";
+}
 
 }  // namespace
 
@@ -51,8 +55,8 @@ std::string repeatCommand(const RenderOptions& options) {
 std::string replayCommand(const RenderJob& job, InvalidSample sample) {
     const CropWindow& crop = job.film().crop();
     const int width = crop.width(), pixel = int(sample.pixel);
-    return fmt::format("{} --pixel {},{} --sample {}", repeatCommand(job.options()), crop.x0 + pixel % width, crop.y0 + pixel / width,
-                       sample.sample);
+    return fmt::format("{} --pixel {},{} --sample {}", repeatCommand(job.options()), crop.x0 + pixel % width,
+                       crop.y0 + pixel / width, sample.sample);
 }
 
 std::string recipeJson(const RenderJob& job) {

@@ -1,7 +1,7 @@
 // The recipe of a picture: what it takes to render the same bits again. It is the attribute "penumbra" of every EXR.
 //
-// A recipe holds nothing that changes from run to run (times, threads, the name of the picture), so that the same picture
-// has the same header on every machine.
+// A recipe holds nothing that changes from run to run (times, threads, the name of the picture), so that the same
+// picture has the same header on every machine.
 #pragma once
 
 #include "app/batch/render_job.h"

@@ -19,14 +19,15 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 }
 
 /// A tile is rendered this many samples of each pixel at a time, which bounds how long a stop takes.
-constexpr std::uint32_t kSamplesPerCall = 256;
+constexpr std::uint32_t kSamplesPerCall = 64;
 
-/// Visits 0 .. count-1 in an order whose every stretch is spread over the whole, so that the first per cent of the tiles costs
-/// about what the others cost, and the time left can be told.
+/// Visits 0 .. count-1 in an order whose every stretch is spread over the whole, so that the first per cent of the
+/// tiles costs about what the others cost, and the time left can be told.
 class SpreadOrder {
 public:
     explicit SpreadOrder(std::uint64_t count) : count_(count), stride_(std::uint64_t(double(count) * kGoldenSection)) {
-        while (std::gcd(stride_, count_) != 1) ++stride_;
+        while (std::gcd(stride_, count_) != 1)
+            ++stride_;
     }
     std::uint64_t operator[](std::uint64_t i) const { return i * stride_ % count_; }
 
@@ -44,7 +45,8 @@ RenderJob::RenderJob(const RenderOptions& options, Warnings& warnings) : options
     prepare(std::move(description), warnings);
 }
 
-RenderJob::RenderJob(SceneDescription description, const RenderOptions& options, Warnings& warnings) : options_(options) {
+RenderJob::RenderJob(SceneDescription description, const RenderOptions& options, Warnings& warnings)
+    : options_(options) {
     prepare(std::move(description), warnings);
 }
 
@@ -53,7 +55,8 @@ void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
     inputs_ = findSceneInputs(description);
     scene_ = buildScene(std::move(description), options_.build, warnings);
     if (options_.replicates > scene_.samplesPerPixel)
-        throw Error(ErrorKind::Usage, std::to_string(options_.replicates) + " replicates need at least as many samples per pixel, not " +
+        throw Error(ErrorKind::Usage, std::to_string(options_.replicates) +
+                                          " replicates need at least as many samples per pixel, not " +
                                           std::to_string(scene_.samplesPerPixel));
     integrator_ = makeIntegrator(scene_.integrator);
     film_ = Film(scene_.film.crop, options_.replicates, scene_.filter.normalization());
@@ -65,14 +68,16 @@ void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
 bool RenderJob::run(const std::atomic<bool>* stop) {
     const auto start = std::chrono::steady_clock::now();
     const CropWindow& crop = film_.crop();
-    const int size = options_.tileSize, columns = (crop.width() + size - 1) / size, rows = (crop.height() + size - 1) / size;
+    const int size = options_.tileSize, columns = (crop.width() + size - 1) / size,
+              rows = (crop.height() + size - 1) / size;
     const std::uint64_t tiles = std::uint64_t(columns) * std::uint64_t(rows);
     const SpreadOrder order(tiles);
     progress_.samplesDone = 0;
-    std::mutex mutex;   // counts are merged once a tile
+    std::mutex mutex;  // counts are merged once a tile
     parallelFor(tiles, [&](std::size_t i) {
         const int x = int(order[i] % std::uint64_t(columns)) * size, y = int(order[i] / std::uint64_t(columns)) * size;
-        const RenderCounts counts = renderTile({x, y, std::min(x + size, crop.width()), std::min(y + size, crop.height())}, stop);
+        const RenderCounts counts =
+            renderTile({x, y, std::min(x + size, crop.width()), std::min(y + size, crop.height())}, stop);
         const std::lock_guard lock(mutex);
         counts_.add(counts);
     });
@@ -96,11 +101,13 @@ RenderCounts RenderJob::renderTile(const Tile& tile, const std::atomic<bool>* st
 Spectrum<float> RenderJob::replay(int x, int y, std::uint32_t sample, int lanes) const {
     const CropWindow& crop = film_.crop();
     if (x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1)
-        throw Error(ErrorKind::Usage, "pixel " + std::to_string(x) + "," + std::to_string(y) + " is outside the picture (" +
-                                          std::to_string(crop.x0) + "," + std::to_string(crop.y0) + " to " + std::to_string(crop.x1 - 1) +
-                                          "," + std::to_string(crop.y1 - 1) + ")");
+        throw Error(ErrorKind::Usage, "pixel " + std::to_string(x) + "," + std::to_string(y) +
+                                          " is outside the picture (" + std::to_string(crop.x0) + "," +
+                                          std::to_string(crop.y0) + " to " + std::to_string(crop.x1 - 1) + "," +
+                                          std::to_string(crop.y1 - 1) + ")");
     if (sample >= std::uint32_t(scene_.samplesPerPixel))
-        throw Error(ErrorKind::Usage, "sample " + std::to_string(sample) + " is not rendered: a pixel has the samples 0 to " +
+        throw Error(ErrorKind::Usage, "sample " + std::to_string(sample) +
+                                          " is not rendered: a pixel has the samples 0 to " +
                                           std::to_string(scene_.samplesPerPixel - 1));
     RenderControls alone = options_.controls;
     alone.lanes = lanes;

@@ -1,14 +1,14 @@
-// RenderJob: one scene rendered into one film. The library's front door: a scene file in, an estimate of every pixel with its
-// error out.
+// RenderJob: one scene rendered into one film. The library's front door: a scene file in, an estimate of every pixel
+// with its error out.
 //
 //     Warnings warnings;
 //     RenderJob job(RenderOptions{.scene = "scene.pbrt"}, warnings);
 //     job.run();
 //     job.writePicture("picture.exr");
 //
-// The picture is a function of the scene and the options that change it (BuildOptions, replicates): threads, tiles, lanes and
-// batches change no bit. Errors: Error, as the parts throw it. Thread safety: one job belongs to one thread, but progress()
-// may be read from any.
+// The picture is a function of the scene and the options that change it (BuildOptions, replicates): threads, tiles,
+// lanes and batches change no bit. Errors: Error, as the parts throw it. Thread safety: one job belongs to one thread,
+// but progress() may be read from any.
 #pragma once
 
 #include "app/batch/scene_inputs.h"
@@ -23,20 +23,20 @@
 namespace penumbra {
 
 struct RenderOptions {
-    std::string scene;                ///< path; "-": standard input
+    std::string scene;  ///< path; "-": standard input
     BuildOptions build;
-    int replicates = 1;               ///< planes of the film
-    int tileSize = 16;                ///< pixels; changes no bit
+    int replicates = 1;  ///< planes of the film
+    int tileSize = 16;   ///< pixels; changes no bit
     RenderControls controls;
 };
 
 struct RenderProgress {
     std::atomic<std::uint64_t> samplesDone{0};
-    std::uint64_t samples = 0;        ///< of all pixels
+    std::uint64_t samples = 0;  ///< of all pixels
 };
 
 struct RenderTimes {
-    double parse = 0, build = 0, render = 0;   ///< seconds
+    double parse = 0, build = 0, render = 0;  ///< seconds
 };
 
 class RenderJob {
@@ -45,11 +45,11 @@ public:
     /// A description made elsewhere (tests, tools) in the place of a file.
     RenderJob(SceneDescription description, const RenderOptions& options, Warnings& warnings);
 
-    /// Renders all samples of all pixels. Where `stop` becomes true it returns false within a fraction of a second, and the
-    /// film then holds some of the samples only.
+    /// Renders all samples of all pixels. Where `stop` becomes true it returns false within a fraction of a second, and
+    /// the film then holds some of the samples only.
     bool run(const std::atomic<bool>* stop = nullptr);
-    /// One sample of one pixel of the whole picture, alone, as the film holds it; `lanes` as in RenderControls. NaN where the
-    /// sample is invalid. Error(Usage) outside the crop window or beyond the samples per pixel.
+    /// One sample of one pixel of the whole picture, alone, as the film holds it; `lanes` as in RenderControls. NaN
+    /// where the sample is invalid. Error(Usage) outside the crop window or beyond the samples per pixel.
     Spectrum<float> replay(int x, int y, std::uint32_t sample, int lanes = 1) const;
 
     const Scene& scene() const { return scene_; }
@@ -59,11 +59,11 @@ public:
     const RenderTimes& times() const { return times_; }
     const RenderProgress& progress() const { return progress_; }
     const RenderOptions& options() const { return options_; }
-    std::size_t warningCount() const { return warningCount_; }   ///< of reading and building the scene
+    std::size_t warningCount() const { return warningCount_; }  ///< of reading and building the scene
 
-    /// By extension: .exr with the error and the header that repeats the picture; .png .jpg .tif ... through the default display
-    /// transform; .hdr .pfm linear. What is there and is no regular file (a device, a pipe) gets an EXR.
-    /// Returns which display transform it went through; empty where through none.
+    /// By extension: .exr with the error and the header that repeats the picture; .png .jpg .tif ... through the
+    /// default display transform; .hdr .pfm linear. What is there and is no regular file (a device, a pipe) gets an
+    /// EXR. Returns which display transform it went through; empty where through none.
     std::string writePicture(const std::string& path) const;
 
 private:
@@ -81,8 +81,8 @@ private:
     std::size_t warningCount_ = 0;
 };
 
-/// Throws what writing a picture there would: asked before a long render. Usage: unknown extension; CannotCreate: no such
-/// folder, a folder of that name, no permission. What stands there stays as it is.
+/// Throws what writing a picture there would: asked before a long render. Usage: unknown extension; CannotCreate: no
+/// such folder, a folder of that name, no permission. What stands there stays as it is.
 void checkPicturePath(const std::string& path);
 
 /// Error(CannotCreate) where the path is one of the scene's own files, under whatever name.

@@ -17,12 +17,14 @@ public:
     void visit(const Entity& entity) { visit(entity.parameters); }
     template <class EntityType>
     void visit(const std::vector<EntityType>& entities) {
-        for (const EntityType& e : entities) visit(e.parameters);
+        for (const EntityType& e : entities)
+            visit(e.parameters);
     }
     void visit(const ParameterSet& parameters) {
         for (const Parameter& p : parameters.all())
             if (p.isText() && (p.type == "string" || p.type == "spectrum"))
-                for (const std::string& name : p.strings()) visitName(name);
+                for (const std::string& name : p.strings())
+                    visitName(name);
     }
     std::vector<std::string> paths() && { return std::move(paths_); }
 
@@ -40,8 +42,9 @@ private:
 };
 
 std::vector<std::string> assetsOf(const SceneDescription& scene) {
-    AssetFinder finder(scene);   // not the film's: its file name is the picture's
-    for (const Entity* e : {static_cast<const Entity*>(&scene.camera), &scene.sampler, &scene.integrator}) finder.visit(*e);
+    AssetFinder finder(scene);  // not the film's: its file name is the picture's
+    for (const Entity* e : {static_cast<const Entity*>(&scene.camera), &scene.sampler, &scene.integrator})
+        finder.visit(*e);
     finder.visit(scene.materials);
     finder.visit(scene.namedMaterials);
     finder.visit(scene.textures);
@@ -49,7 +52,8 @@ std::vector<std::string> assetsOf(const SceneDescription& scene) {
     finder.visit(scene.lights);
     finder.visit(scene.areaLights);
     finder.visit(scene.shapes);
-    for (const ObjectDefinition& object : scene.objects) finder.visit(object.shapes);
+    for (const ObjectDefinition& object : scene.objects)
+        finder.visit(object.shapes);
     return std::move(finder).paths();
 }
 
@@ -68,8 +72,10 @@ SceneInputs findSceneInputs(const SceneDescription& scene) {
     std::vector<std::string> digests(inputs.assets.size());
     parallelFor(digests.size(), [&](std::size_t i) { digests[i] = digestOrEmpty(inputs.assets[i]); });
     Sha256 all;
-    for (const std::string& digest : scene.digests) all.add("text " + digest + "\n");
-    for (const std::string& digest : digests) all.add("file " + digest + "\n");
+    for (const std::string& digest : scene.digests)
+        all.add("text " + digest + "\n");
+    for (const std::string& digest : digests)
+        all.add("file " + digest + "\n");
     inputs.hash = all.hex();
     return inputs;
 }

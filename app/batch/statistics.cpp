@@ -4,9 +4,9 @@
 #include "core/base/parallel.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sys/resource.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
@@ -14,7 +14,9 @@
 namespace penumbra {
 namespace {
 
-double perSecond(std::uint64_t count, double seconds) { return seconds > 0 ? double(count) / seconds : 0; }
+double perSecond(std::uint64_t count, double seconds) {
+    return seconds > 0 ? double(count) / seconds : 0;
+}
 
 /// Three significant digits, and the largest prefix that leaves at least 1 before the point.
 std::string scaledText(double value, double base, std::initializer_list<const char*> units) {
@@ -27,7 +29,9 @@ std::string scaledText(double value, double base, std::initializer_list<const ch
     return fmt::format("{:.{}f}{}", value, decimals, *unit);
 }
 
-std::string line(std::string_view name, const std::string& value) { return fmt::format("  {:<18} {}\n", name, value); }
+std::string line(std::string_view name, const std::string& value) {
+    return fmt::format("  {:<18} {}\n", name, value);
+}
 
 }  // namespace
 
@@ -85,14 +89,16 @@ std::string statisticsText(const RenderStatistics& s) {
     std::string text = "statistics\n";
     text += line("parse", fmt::format("{:.3f} s", s.times.parse));
     text += line("build", fmt::format("{:.3f} s", s.times.build));
-    text += line("render", fmt::format("{:.3f} s on {} thread{}", s.times.render, s.threads, s.threads == 1 ? "" : "s"));
+    text +=
+        line("render", fmt::format("{:.3f} s on {} thread{}", s.times.render, s.threads, s.threads == 1 ? "" : "s"));
     text += line("samples", fmt::format("{} ({}/s)", countText(double(s.counts.paths)), countText(s.samplesPerSecond)));
-    text += line("rays", fmt::format("{} ({}/s): {} to surfaces, {} to lights", countText(double(s.counts.rays + s.counts.shadowRays)),
-                                     countText(s.raysPerSecond), countText(double(s.counts.rays)), countText(double(s.counts.shadowRays))));
+    text += line("rays", fmt::format("{} ({}/s): {} to surfaces, {} to lights",
+                                     countText(double(s.counts.rays + s.counts.shadowRays)), countText(s.raysPerSecond),
+                                     countText(double(s.counts.rays)), countText(double(s.counts.shadowRays))));
     text += line("live lanes", fmt::format("{:.2f} in a shading call", s.meanLiveLanes));
-    text += line("memory", fmt::format("film {}, geometry {}, textures {}; process {} at its peak", bytesText(double(s.filmBytes)),
-                                       bytesText(double(s.geometryBytes)), bytesText(double(s.textureBytes)),
-                                       bytesText(double(s.peakMemoryBytes))));
+    text += line("memory", fmt::format("film {}, geometry {}, textures {}; process {} at its peak",
+                                       bytesText(double(s.filmBytes)), bytesText(double(s.geometryBytes)),
+                                       bytesText(double(s.textureBytes)), bytesText(double(s.peakMemoryBytes))));
     text += line("invalid samples", std::to_string(s.counts.invalid));
     text += line("standard error", errorText(s.error));
     return text;
@@ -112,16 +118,25 @@ std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
         {"rays_per_second", s.raysPerSecond},
         {"mean_live_lanes", s.meanLiveLanes},
         {"bytes",
-         {{"film", s.filmBytes}, {"geometry", s.geometryBytes}, {"textures", s.textureBytes}, {"peak_rss", s.peakMemoryBytes}}},
+         {{"film", s.filmBytes},
+          {"geometry", s.geometryBytes},
+          {"textures", s.textureBytes},
+          {"peak_rss", s.peakMemoryBytes}}},
         {"invalid_samples", s.counts.invalid},
         {"standard_error",
-         {{"rms", known(s.error.rootMeanSquare)}, {"relative", known(s.error.relative)}, {"unknown_pixels", s.error.unknownPixels}}},
+         {{"rms", known(s.error.rootMeanSquare)},
+          {"relative", known(s.error.relative)},
+          {"unknown_pixels", s.error.unknownPixels}}},
     };
     return json.dump();
 }
 
-std::string bytesText(double bytes) { return scaledText(bytes, 1024, {" B", " KiB", " MiB", " GiB", " TiB"}); }
-std::string countText(double count) { return scaledText(count, 1000, {"", " k", " M", " G", " T"}); }
+std::string bytesText(double bytes) {
+    return scaledText(bytes, 1024, {" B", " KiB", " MiB", " GiB", " TiB"});
+}
+std::string countText(double count) {
+    return scaledText(count, 1000, {"", " k", " M", " G", " T"});
+}
 
 std::uint64_t peakMemoryBytes() {
     rusage usage{};

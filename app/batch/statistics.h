@@ -10,12 +10,13 @@
 
 namespace penumbra {
 
-/// The standard error of a picture as one number: the root of the mean square over pixels and channels whose error is known.
+/// The standard error of a picture as one number: the root of the mean square over pixels and channels whose error is
+/// known.
 struct PictureError {
     double rootMeanSquare = 0;
-    double relative = 0;             ///< to the mean of the picture; 0 for a black one
-    std::uint64_t unknownPixels = 0; ///< pixels with a channel of unknown error
-    bool isKnown = false;            ///< of any pixel
+    double relative = 0;              ///< to the mean of the picture; 0 for a black one
+    std::uint64_t unknownPixels = 0;  ///< pixels with a channel of unknown error
+    bool isKnown = false;             ///< of any pixel
 };
 PictureError pictureError(const Film& film);
 /// "1.2 % of the mean".
@@ -25,10 +26,10 @@ struct RenderStatistics {
     RenderTimes times;
     int threads = 0;
     RenderCounts counts;
-    double samplesPerSecond = 0, raysPerSecond = 0;   ///< of rendering alone; rays: to surfaces and to lights together
-    double meanLiveLanes = 0;        ///< of a shading call
+    double samplesPerSecond = 0, raysPerSecond = 0;  ///< of rendering alone; rays: to surfaces and to lights together
+    double meanLiveLanes = 0;                        ///< of a shading call
     std::size_t filmBytes = 0, geometryBytes = 0, textureBytes = 0;
-    std::uint64_t peakMemoryBytes = 0;   ///< of the process so far
+    std::uint64_t peakMemoryBytes = 0;  ///< of the process so far
     PictureError error;
 };
 /// REQUIRES: the job has run.

@@ -1,7 +1,7 @@
 #include "app/commands/arguments.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -12,7 +12,9 @@ namespace {
 constexpr std::size_t kHelpColumn = 28, kHelpWidth = 100;
 
 /// "--outfile" of "-o,--outfile": how messages name an option.
-std::string longName(const std::string& names) { return names.substr(names.rfind(',') + 1); }
+std::string longName(const std::string& names) {
+    return names.substr(names.rfind(',') + 1);
+}
 
 [[noreturn]] void refuse(const std::string& names, const std::string& reason) {
     throw Error(ErrorKind::Usage, longName(names) + ": " + reason);
@@ -47,8 +49,10 @@ std::string helpRow(const std::string& name, const std::string& meaning) {
 std::string optionName(const CLI::Option& option) {
     if (option.get_positional()) return option.get_name(true);
     std::string name;
-    for (const std::string& s : option.get_snames()) name += "-" + s + ", ";
-    for (const std::string& l : option.get_lnames()) name += "--" + l + ", ";
+    for (const std::string& s : option.get_snames())
+        name += "-" + s + ", ";
+    for (const std::string& l : option.get_lnames())
+        name += "--" + l + ", ";
     name.resize(name.size() - 2);
     const std::string value = option.get_type_name();
     return name + (value.empty() || value.front() == '[' ? "" : " ") + value;
@@ -71,7 +75,8 @@ std::string optionRows(const CLI::App& app) {
 
 std::string commandRows(const CLI::App& program) {
     std::string text;
-    for (const CLI::App* command : program.get_subcommands({})) text += helpRow(command->get_name(), command->get_description());
+    for (const CLI::App* command : program.get_subcommands({}))
+        text += helpRow(command->get_name(), command->get_description());
     return text.empty() ? text : "\nCommands:\n" + text;
 }
 
@@ -89,30 +94,37 @@ std::string usage(const CLI::App& app) {
 std::vector<std::string> optionNames(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) {
-        for (const std::string& s : option->get_snames()) names.push_back("-" + s);
-        for (const std::string& l : option->get_lnames()) names.push_back("--" + l);
+        for (const std::string& s : option->get_snames())
+            names.push_back("-" + s);
+        for (const std::string& l : option->get_lnames())
+            names.push_back("--" + l);
     }
     return names;
 }
 
 void rejectFirst(const CLI::App& app, const std::vector<std::string>& words) {
     if (words.empty()) return;
-    const auto option = std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.size() > 1 && w[0] == '-'; });
+    const auto option =
+        std::find_if(words.begin(), words.end(), [](const std::string& w) { return w.size() > 1 && w[0] == '-'; });
     if (option != words.end()) {
         const std::string name = option->substr(0, option->find('='));
         std::vector<std::string> known = optionNames(app);
-        if (nearestNames(name, known).empty()) known.clear();   // fifty options would be no help
-        throw Error(ErrorKind::Usage, "unknown option " + quote(name) + suggestion(name, known) + " (" + app.get_name() + " --help lists all)");
+        if (nearestNames(name, known).empty()) known.clear();  // fifty options would be no help
+        throw Error(ErrorKind::Usage, "unknown option " + quote(name) + suggestion(name, known) + " (" +
+                                          app.get_name() + " --help lists all)");
     }
     if (app.get_parent()) throw Error(ErrorKind::Usage, "one word too many: " + quote(words.front()));
     std::vector<std::string> known;
-    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    for (const CLI::App* command : app.get_subcommands({}))
+        known.push_back(command->get_name());
     throw Error(ErrorKind::Usage, "unknown command " + quote(words.front()) + suggestion(words.front(), known));
 }
 
 }  // namespace
 
-void Arguments::help() { app_.set_help_flag("-h,--help", "print this help")->group(group_); }
+void Arguments::help() {
+    app_.set_help_flag("-h,--help", "print this help")->group(group_);
+}
 
 void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
     app_.add_option(name, value, help)->take_last();
@@ -127,7 +139,10 @@ void Arguments::flag(const std::string& names, bool& value, const std::string& h
 }
 
 void Arguments::text(const std::string& names, const std::string& valueName, const std::string& help, Setter set) {
-    app_.add_option_function<std::string>(names, std::move(set), help)->type_name(valueName)->take_last()->group(group_);
+    app_.add_option_function<std::string>(names, std::move(set), help)
+        ->type_name(valueName)
+        ->take_last()
+        ->group(group_);
 }
 
 void Arguments::optionalText(const std::string& name, const std::string& otherwise, const std::string& valueName,
@@ -138,7 +153,8 @@ void Arguments::optionalText(const std::string& name, const std::string& otherwi
 
 void Arguments::choice(const std::string& names, std::vector<std::string> known, const std::string& help, Setter set) {
     std::string all;
-    for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
+    for (const std::string& name : known)
+        all += (all.empty() ? "" : ", ") + name;
     text(names, "NAME", help + ": " + all, [=, set = std::move(set)](const std::string& value) {
         if (std::find(known.begin(), known.end(), value) == known.end())
             refuse(names, "unknown name " + quote(value) + suggestion(value, known));
@@ -165,19 +181,23 @@ std::int64_t Arguments::parseWhole(const std::string& names, const std::string& 
     return number;
 }
 
-std::pair<int, int> Arguments::parsePair(const std::string& names, const std::string& text, char separator, WholeRange range) {
+std::pair<int, int> Arguments::parsePair(const std::string& names, const std::string& text, char separator,
+                                         WholeRange range) {
     const std::size_t at = text.find(separator);
-    if (at == std::string::npos) refuse(names, fmt::format("{} are not two whole numbers with '{}' between", quote(text), separator));
+    if (at == std::string::npos)
+        refuse(names, fmt::format("{} are not two whole numbers with '{}' between", quote(text), separator));
     return {int(parseWhole(names, text.substr(0, at), range)), int(parseWhole(names, text.substr(at + 1), range))};
 }
 
 std::string helpText(const CLI::App& app) {
     const std::string footer = app.get_footer();
-    return app.get_description() + "\n\n" + usage(app) + commandRows(app) + optionRows(app) + (footer.empty() ? "" : "\n" + footer);
+    return app.get_description() + "\n\n" + usage(app) + commandRows(app) + optionRows(app) +
+           (footer.empty() ? "" : "\n" + footer);
 }
 
 void rejectUnknownWords(const CLI::App& program) {
-    for (const CLI::App* command : program.get_subcommands()) rejectFirst(*command, command->remaining());
+    for (const CLI::App* command : program.get_subcommands())
+        rejectFirst(*command, command->remaining());
     rejectFirst(program, program.remaining());
 }
 

@@ -42,20 +42,24 @@ public:
     /// `valueName` stands for the value in the help.
     void text(const std::string& names, const std::string& valueName, const std::string& help, Setter set);
     /// An option that may stand alone, or with a value behind a '='; alone, the value is `otherwise`.
-    void optionalText(const std::string& name, const std::string& otherwise, const std::string& valueName, std::string& value,
-                      const std::string& help);
+    void optionalText(const std::string& name, const std::string& otherwise, const std::string& valueName,
+                      std::string& value, const std::string& help);
     void choice(const std::string& names, std::vector<std::string> known, const std::string& help, Setter set);
     /// `Value` is a number type, or a std::optional of one.
     template <class Value>
-    void whole(const std::string& names, const std::string& valueName, WholeRange range, Value& value, const std::string& help) {
-        text(names, valueName, help, [=, &value](const std::string& t) { value = number<Value>(parseWhole(names, t, range)); });
+    void whole(const std::string& names, const std::string& valueName, WholeRange range, Value& value,
+               const std::string& help) {
+        text(names, valueName, help,
+             [=, &value](const std::string& t) { value = number<Value>(parseWhole(names, t, range)); });
     }
-    void real(const std::string& names, const std::string& valueName, double least, double most, float& value, const std::string& help);
+    void real(const std::string& names, const std::string& valueName, double least, double most, float& value,
+              const std::string& help);
 
     /// `text` is a whole number in the range, else an error that names the option.
     static std::int64_t parseWhole(const std::string& names, const std::string& text, WholeRange range);
     /// Two whole numbers with the separator between: "640x480".
-    static std::pair<int, int> parsePair(const std::string& names, const std::string& text, char separator, WholeRange range);
+    static std::pair<int, int> parsePair(const std::string& names, const std::string& text, char separator,
+                                         WholeRange range);
 
 private:
     template <class Value>

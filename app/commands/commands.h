@@ -13,7 +13,7 @@ class App;
 namespace penumbra {
 
 struct Command {
-    CLI::App* parser;            ///< owned by the program's parser
+    CLI::App* parser;  ///< owned by the program's parser
     std::function<void()> run;
 };
 

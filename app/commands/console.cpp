@@ -38,7 +38,8 @@ void printLabelled(std::string_view label, std::string_view colour, std::string_
 void prepareConsole() {
     for (int descriptor = 0; descriptor <= 2; ++descriptor)
         if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
-            // The lowest free number is this one. Standard output opened for reading makes writes fail as they would have.
+            // The lowest free number is this one. Standard output opened for reading makes writes fail as they would
+            // have.
             const int opened = ::open("/dev/null", descriptor == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
             if (opened != descriptor) std::_Exit(int(ErrorKind::Configuration));
         }
@@ -62,11 +63,19 @@ void printOut(std::string_view text) {
     throw Error(ErrorKind::CannotWrite, std::string("standard output: ") + std::strerror(errno));
 }
 
-void printNote(std::string_view text) { printTo(STDERR_FILENO, std::string(text) + "\n"); }
-void printWarning(std::string_view text) { printLabelled("warning: ", "\x1b[1;33m", text); }
-void printError(std::string_view text) { printLabelled("error: ", "\x1b[1;31m", text); }
+void printNote(std::string_view text) {
+    printTo(STDERR_FILENO, std::string(text) + "\n");
+}
+void printWarning(std::string_view text) {
+    printLabelled("warning: ", "\x1b[1;33m", text);
+}
+void printError(std::string_view text) {
+    printLabelled("error: ", "\x1b[1;31m", text);
+}
 
-bool errorIsTerminal() { return ::isatty(STDERR_FILENO) == 1; }
+bool errorIsTerminal() {
+    return ::isatty(STDERR_FILENO) == 1;
+}
 
 int errorColumns() {
     winsize size{};

@@ -1,8 +1,8 @@
 // Where the program speaks: standard output for what was asked for, standard error for everything else.
 //
 // Colours: on a terminal only, and not where NO_COLOR or TERM=dumb asks for none. Errors: what cannot be written to
-// standard output is Error(CannotWrite), but a reader that has gone away (EPIPE) is none: it had enough. Standard error is
-// written as far as it can be. Thread safety: all functions may be called from several threads; lines stay whole.
+// standard output is Error(CannotWrite), but a reader that has gone away (EPIPE) is none: it had enough. Standard error
+// is written as far as it can be. Thread safety: all functions may be called from several threads; lines stay whole.
 #pragma once
 
 #include "core/base/warnings.h"
@@ -19,16 +19,16 @@ void prepareConsole();
 void printOut(std::string_view text);
 /// To any descriptor; false where not all of it could be written.
 bool printTo(int descriptor, std::string_view text);
-void printNote(std::string_view text);      ///< a line on standard error, as it is
-void printWarning(std::string_view text);   ///< "warning: ..."
-void printError(std::string_view text);     ///< "error: ..."
+void printNote(std::string_view text);     ///< a line on standard error, as it is
+void printWarning(std::string_view text);  ///< "warning: ..."
+void printError(std::string_view text);    ///< "error: ..."
 
 bool errorIsTerminal();
 /// Columns of the terminal behind standard error; 80 where unknown.
 int errorColumns();
 
-/// Prints the warnings that have come together, at the latest when it goes out of scope, so that they stand before the error
-/// that ends the work.
+/// Prints the warnings that have come together, at the latest when it goes out of scope, so that they stand before the
+/// error that ends the work.
 class WarningPrinter {
 public:
     WarningPrinter(const Warnings& warnings, bool quiet) : warnings_(warnings), quiet_(quiet) {}

@@ -8,8 +8,8 @@
 #include "core/color/display.h"
 #include "core/image/image_io.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,8 @@ std::vector<std::string> layersOf(const ExrFile& file) {
     std::set<std::string> names;
     for (const ExrChannel& channel : file.header.channels) {
         names.insert(channel.name);
-        if (const std::size_t point = channel.name.rfind('.'); point != std::string::npos) names.insert(channel.name.substr(0, point));
+        if (const std::size_t point = channel.name.rfind('.'); point != std::string::npos)
+            names.insert(channel.name.substr(0, point));
     }
     return {names.begin(), names.end()};
 }
@@ -69,7 +70,8 @@ std::vector<std::string> layersOf(const ExrFile& file) {
 std::unique_ptr<std::vector<float>> channelOf(const ExrFile& file, const std::string& name) {
     for (std::size_t i = 0; i < file.header.channels.size(); ++i) {
         if (file.header.channels[i].name != name) continue;
-        if (file.header.channels[i].type == ExrChannel::Type::Float) return std::make_unique<std::vector<float>>(file.floats[i]);
+        if (file.header.channels[i].type == ExrChannel::Type::Float)
+            return std::make_unique<std::vector<float>>(file.floats[i]);
         return std::make_unique<std::vector<float>>(file.uints[i].begin(), file.uints[i].end());
     }
     return nullptr;
@@ -86,37 +88,40 @@ Picture readLayer(const std::string& path, const std::string& layer) {
     const bool whole = planes[0] && planes[1] && planes[2];
     if (!whole && !grey) {
         const std::vector<std::string> known = layersOf(file);
-        throw Error(ErrorKind::Usage, pathText(path) + ": no layer or channel " + quote(layer) + suggestion(layer, known));
+        throw Error(ErrorKind::Usage,
+                    pathText(path) + ": no layer or channel " + quote(layer) + suggestion(layer, known));
     }
     Picture picture{file.header.dataWindow.width(), file.header.dataWindow.height(), {}, &srgbColorSpace()};
     if (file.header.colorSpace) picture.space = file.header.colorSpace;
     const std::size_t pixels = std::size_t(picture.width) * std::size_t(picture.height);
     picture.rgb.resize(pixels * 3);
     for (std::size_t i = 0; i < pixels; ++i)
-        for (std::size_t c = 0; c < 3; ++c) picture.rgb[3 * i + c] = whole ? (*planes[c])[i] : (*grey)[i];
+        for (std::size_t c = 0; c < 3; ++c)
+            picture.rgb[3 * i + c] = whole ? (*planes[c])[i] : (*grey)[i];
     return picture;
 }
 
 void listViews(const std::string& config) {
     std::string text;
-    for (const DisplayList& display : listDisplays(config)) text += fmt::format("{}: {}\n", display.display, fmt::join(display.views, ", "));
+    for (const DisplayList& display : listDisplays(config))
+        text += fmt::format("{}: {}\n", display.display, fmt::join(display.views, ", "));
     printOut(text);
 }
 
 std::string toDisplay(Picture& picture, const DisplayOptions& options) {
-    const std::size_t broken = std::size_t(
-        std::count_if(picture.rgb.begin(), picture.rgb.end(), [](float v) { return !std::isfinite(v); }));
+    const std::size_t broken =
+        std::size_t(std::count_if(picture.rgb.begin(), picture.rgb.end(), [](float v) { return !std::isfinite(v); }));
     if (broken) printWarning(fmt::format("{} values of the picture are not finite; they are shown as black", broken));
     const DisplayTransform transform(options, *picture.space);
     transform.apply(picture.rgb);
-    return fmt::format("display {}, view {} of the OpenColorIO configuration {}", quote(transform.display()), quote(transform.view()),
-                       transform.configuration());
+    return transform.description();
 }
 
 void checkPaths(const ConvertRequest& request) {
     if (request.to.empty()) throw Error(ErrorKind::Usage, "two pictures are needed: penumbra convert FROM TO");
     if (extensionOf(request.to) == "exr")
-        throw Error(ErrorKind::Usage, pathText(request.to) + ": convert writes pictures for a screen (png, jpg, tif) and linear hdr, pfm");
+        throw Error(ErrorKind::Usage, pathText(request.to) +
+                                          ": convert writes pictures for a screen (png, jpg, tif) and linear hdr, pfm");
     checkPicturePath(request.to);
     checkKeepsInputs(request.to, {.texts = {request.from}, .assets = {}, .hash = ""});
 }
@@ -129,9 +134,11 @@ void runConvert(const ConvertRequest& request) {
     if (imageFileKind(request.to, request.write) == ImageFileKind::DisplayEncoded)
         how = "through " + toDisplay(picture, request.display);
     else
-        for (float& v : picture.rgb) v *= std::exp2(request.display.exposure);
+        for (float& v : picture.rgb)
+            v *= std::exp2(request.display.exposure);
     writeImage(request.to, picture.width, picture.height, picture.rgb, request.write);
-    if (!request.quiet) printNote(fmt::format("wrote {}: {}x{}, {}", pathText(request.to), picture.width, picture.height, how));
+    if (!request.quiet)
+        printNote(fmt::format("wrote {}: {}x{}, {}", pathText(request.to), picture.width, picture.height, how));
 }
 
 }  // namespace
@@ -146,17 +153,22 @@ Command addConvertCommand(CLI::App& program) {
     arguments.positional("TO", r.to, "the picture to write: .png .jpg .tif .hdr .pfm");
     arguments.group("Colour");
     arguments.real("--exposure", "STOPS", -100, 100, r.display.exposure, "brighten by 2^STOPS first (default: 0)");
-    arguments.text("--display", "NAME", "the display (default: the configuration's)", [&r](const std::string& t) { r.display.display = t; });
-    arguments.text("--view", "NAME", "the view (default: the display's; built in: Standard)", [&r](const std::string& t) { r.display.view = t; });
+    arguments.text("--display", "NAME", "the display (default: the configuration's)",
+                   [&r](const std::string& t) { r.display.display = t; });
+    arguments.text("--view", "NAME", "the view (default: the display's; built in: Standard)",
+                   [&r](const std::string& t) { r.display.view = t; });
     arguments.text("--ocio", "FILE", "the OpenColorIO configuration (default: $OCIO, else built in)",
                    [&r](const std::string& t) { r.display.config = t; });
-    arguments.text("--input-space", "NAME", "the colour space of the pixels, as the configuration names it (default: as the picture says)",
+    arguments.text("--input-space", "NAME",
+                   "the colour space of the pixels, as the configuration names it (default: as the picture says)",
                    [&r](const std::string& t) { r.display.inputSpace = t; });
     arguments.flag("--list-views", r.listViews, "print the displays and their views, and do nothing else");
     arguments.group("Picture");
-    arguments.text("--layer", "NAME", "a layer (SE: the standard error) or one channel (samples) of an EXR, instead of its colours",
+    arguments.text("--layer", "NAME",
+                   "a layer (SE: the standard error) or one channel (samples) of an EXR, instead of its colours",
                    [&r](const std::string& t) { r.layer = t; });
-    arguments.whole("--bits", "N", {8, 32}, r.write.bits, "of PNG and TIFF: 8 or 16; of TIFF also 32, linear floats (default: 8)");
+    arguments.whole("--bits", "N", {8, 32}, r.write.bits,
+                    "of PNG and TIFF: 8 or 16; of TIFF also 32, linear floats (default: 8)");
     arguments.whole("--quality", "N", {1, 100}, r.write.jpegQuality, "of JPEG, 1 to 100 (default: 95)");
     arguments.flag("--quiet", r.quiet, "say nothing but warnings and errors");
     arguments.help();

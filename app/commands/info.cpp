@@ -10,8 +10,8 @@
 #include "scenes/builder.h"
 #include "scenes/readers.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <memory>
@@ -45,7 +45,9 @@ Json countsOf(TypeList<Ts...> types, Count&& count) {
     return counts;
 }
 
-Json triple(const Vec3<float>& v) { return {v.x, v.y, v.z}; }
+Json triple(const Vec3<float>& v) {
+    return {v.x, v.y, v.z};
+}
 
 Json facts(const std::string& path, const Scene& scene, const SceneInputs& inputs, const Warnings& warnings) {
     const SceneFacts& f = scene.facts;
@@ -60,7 +62,8 @@ Json facts(const std::string& path, const Scene& scene, const SceneInputs& input
           {"crop", {crop.x0, crop.y0, crop.x1, crop.y1}},
           {"filename", scene.film.fileName},
           {"color_space", scene.film.colorSpace}}},
-        {"sampler", {{"type", scene.sampler.info().name}, {"samples_per_pixel", scene.samplesPerPixel}, {"seed", scene.seed}}},
+        {"sampler",
+         {{"type", scene.sampler.info().name}, {"samples_per_pixel", scene.samplesPerPixel}, {"seed", scene.seed}}},
         {"integrator", {{"type", scene.integrator.name}, {"maxdepth", scene.integrator.maxDepth}}},
         {"shapes", f.shapes},
         {"triangles", f.triangles},
@@ -69,13 +72,18 @@ Json facts(const std::string& path, const Scene& scene, const SceneInputs& input
         {"motion", scene.hasMotion},
         {"materials", countsOf(MaterialTypes{}, [&]<class T>() { return scene.materials.rows<T>().size(); })},
         {"lights", countsOf(LightTypes{}, [&]<class T>() { return scene.lights.rows<T>().size(); })},
-        {"textures", {{"count", scene.textures.count()}, {"images", scene.textures.imageCount()}, {"bytes", scene.textures.bytes()}}},
+        {"textures",
+         {{"count", scene.textures.count()},
+          {"images", scene.textures.imageCount()},
+          {"bytes", scene.textures.bytes()}}},
         {"geometry_bytes", scene.geometry.memoryBytes()},
         {"seconds", {{"build", f.buildSeconds}, {"acceleration", f.accelerationSeconds}}},
         {"warnings", warnings.all()},
     };
     const SceneBounds bounds = scene.accelerator.bounds();
-    json["bounds"] = bounds.lower.x <= bounds.upper.x ? Json{{"lower", triple(bounds.lower)}, {"upper", triple(bounds.upper)}} : Json();
+    json["bounds"] = bounds.lower.x <= bounds.upper.x
+                         ? Json{{"lower", triple(bounds.lower)}, {"upper", triple(bounds.upper)}}
+                         : Json();
     return json;
 }
 
@@ -89,7 +97,9 @@ std::string countList(const Json& counts) {
 
 std::string asText(const Json& j) {
     std::string text;
-    const auto line = [&](const char* name, const std::string& value) { text += fmt::format("{:<12} {}\n", name, value); };
+    const auto line = [&](const char* name, const std::string& value) {
+        text += fmt::format("{:<12} {}\n", name, value);
+    };
     const auto number = [](const Json& value) { return value.get<double>(); };
     const Json& film = j["film"];
     line("scene", j["scene"].get<std::string>());
@@ -100,18 +110,23 @@ std::string asText(const Json& j) {
     const Json whole = {0, 0, film["resolution"][0], film["resolution"][1]};
     if (film["crop"] != whole) picture += ", crop " + film["crop"].dump();
     line("picture", picture + ", to " + film["filename"].get<std::string>());
-    line("sampler", fmt::format("{}, {} samples per pixel, seed {}", j["sampler"]["type"].get<std::string>(),
-                                j["sampler"]["samples_per_pixel"].get<int>(), j["sampler"]["seed"].get<std::uint32_t>()));
-    line("integrator", fmt::format("{}, maxdepth {}", j["integrator"]["type"].get<std::string>(), j["integrator"]["maxdepth"].get<int>()));
+    line("sampler",
+         fmt::format("{}, {} samples per pixel, seed {}", j["sampler"]["type"].get<std::string>(),
+                     j["sampler"]["samples_per_pixel"].get<int>(), j["sampler"]["seed"].get<std::uint32_t>()));
+    line("integrator", fmt::format("{}, maxdepth {}", j["integrator"]["type"].get<std::string>(),
+                                   j["integrator"]["maxdepth"].get<int>()));
     line("geometry", fmt::format("{} shapes with {} triangles, {} instances, {}{}", j["shapes"].get<std::size_t>(),
-                                 countText(number(j["triangles"])), j["instances"].get<std::size_t>(), bytesText(number(j["geometry_bytes"])),
-                                 j["motion"].get<bool>() ? ", moving" : ""));
-    if (j["dropped_triangles"] != 0) line("", fmt::format("{} degenerate triangles were left out", j["dropped_triangles"].get<std::size_t>()));
-    line("bounds", j["bounds"].is_null() ? "nothing to see" : j["bounds"]["lower"].dump() + " to " + j["bounds"]["upper"].dump());
+                                 countText(number(j["triangles"])), j["instances"].get<std::size_t>(),
+                                 bytesText(number(j["geometry_bytes"])), j["motion"].get<bool>() ? ", moving" : ""));
+    if (j["dropped_triangles"] != 0)
+        line("", fmt::format("{} degenerate triangles were left out", j["dropped_triangles"].get<std::size_t>()));
+    line("bounds",
+         j["bounds"].is_null() ? "nothing to see" : j["bounds"]["lower"].dump() + " to " + j["bounds"]["upper"].dump());
     line("materials", countList(j["materials"]));
     line("lights", countList(j["lights"]));
-    line("textures", fmt::format("{} from {} images, {}", j["textures"]["count"].get<std::size_t>(), j["textures"]["images"].get<std::size_t>(),
-                                 bytesText(number(j["textures"]["bytes"]))));
+    line("textures",
+         fmt::format("{} from {} images, {}", j["textures"]["count"].get<std::size_t>(),
+                     j["textures"]["images"].get<std::size_t>(), bytesText(number(j["textures"]["bytes"]))));
     line("built in", fmt::format("{:.3f} s, and {:.3f} s for the acceleration structure", number(j["seconds"]["build"]),
                                  number(j["seconds"]["acceleration"])));
     line("warnings", std::to_string(j["warnings"].size()));

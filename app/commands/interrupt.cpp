@@ -30,10 +30,16 @@ void installInterrupts() {
     }
 }
 
-InterruptGuard::InterruptGuard() { guarded = true; }
-InterruptGuard::~InterruptGuard() { guarded = false; }
+InterruptGuard::InterruptGuard() {
+    guarded = true;
+}
+InterruptGuard::~InterruptGuard() {
+    guarded = false;
+}
 
-const std::atomic<bool>& stopRequested() { return stop; }
+const std::atomic<bool>& stopRequested() {
+    return stop;
+}
 
 void throwIfInterrupted() {
     if (stop) throw Interrupted{received};

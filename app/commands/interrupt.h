@@ -1,9 +1,9 @@
 // What INT (Ctrl-C), TERM and HUP do.
 //
-// By default they end the process at once, with exit code 128 + signal: nothing is worth waiting for while a scene is read.
-// While an InterruptGuard lives, the first of them only raises stopRequested(), so that a render ends where its film is
-// whole and a file that is being written appears whole; a second one ends the process all the same.
-// HUP stays ignored where whoever started the program ignored it (nohup).
+// By default they end the process at once, with exit code 128 + signal: nothing is worth waiting for while a scene is
+// read. While an InterruptGuard lives, the first of them only raises stopRequested(), so that a render ends where its
+// film is whole and a file that is being written appears whole; a second one ends the process all the same. HUP stays
+// ignored where whoever started the program ignored it (nohup).
 #pragma once
 
 #include <atomic>

@@ -10,8 +10,8 @@
 #include "materials/registry.h"
 #include "samplers/registry.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -53,16 +53,19 @@ struct ListRequest {
 template <class T>
 void keepOnly(std::vector<T>& list, const std::string& what, const std::string& wanted) {
     std::vector<std::string> known;
-    for (const T& t : list) known.emplace_back(t.name);
+    for (const T& t : list)
+        known.emplace_back(t.name);
     std::erase_if(list, [&](const T& t) { return t.name != wanted && t.name != wanted + "s"; });
-    if (list.empty()) throw Error(ErrorKind::Usage, "unknown " + what + " " + quote(wanted) + suggestion(wanted, known));
+    if (list.empty())
+        throw Error(ErrorKind::Usage, "unknown " + what + " " + quote(wanted) + suggestion(wanted, known));
 }
 
 std::string row(const PluginInfo& plugin, bool withParameters) {
     std::string text = fmt::format("  {:<18} {}\n", plugin.name, plugin.summary);
     if (!withParameters) return text;
     for (const ParameterInfo& p : plugin.parameters)
-        text += fmt::format("      {:<26} {:<12} {}\n", fmt::format("\"{} {}\"", p.type, p.name), p.standard, p.meaning);
+        text +=
+            fmt::format("      {:<26} {:<12} {}\n", fmt::format("\"{} {}\"", p.type, p.name), p.standard, p.meaning);
     return text;
 }
 
@@ -70,7 +73,8 @@ std::string asText(const std::vector<Kind>& kinds, bool withParameters) {
     std::string text;
     for (const Kind& kind : kinds) {
         text += (text.empty() ? "" : "\n") + kind.name + "\n";
-        for (const PluginInfo& plugin : kind.plugins) text += row(plugin, withParameters);
+        for (const PluginInfo& plugin : kind.plugins)
+            text += row(plugin, withParameters);
     }
     return text;
 }
@@ -82,7 +86,8 @@ std::string asJson(const std::vector<Kind>& kinds) {
         for (const PluginInfo& plugin : kind.plugins) {
             Json parameters = Json::array();
             for (const ParameterInfo& p : plugin.parameters)
-                parameters.push_back({{"type", p.type}, {"name", p.name}, {"default", p.standard}, {"meaning", p.meaning}});
+                parameters.push_back(
+                    {{"type", p.type}, {"name", p.name}, {"default", p.standard}, {"meaning", p.meaning}});
             all[kind.name].push_back({{"name", plugin.name}, {"summary", plugin.summary}, {"parameters", parameters}});
         }
     return all.dump(2) + "\n";
@@ -98,11 +103,13 @@ void runList(const ListRequest& request) {
 }  // namespace
 
 Command addListCommand(CLI::App& program) {
-    CLI::App& command = *program.add_subcommand("list", "list the samplers, materials, lights ... there are, with their parameters");
+    CLI::App& command =
+        *program.add_subcommand("list", "list the samplers, materials, lights ... there are, with their parameters");
     command.footer(kExamples);
     const auto request = std::make_shared<ListRequest>();
     Arguments arguments(command);
-    arguments.positional("KIND", request->kind, "integrators, samplers, filters, lights, materials or textures (default: all)");
+    arguments.positional("KIND", request->kind,
+                         "integrators, samplers, filters, lights, materials or textures (default: all)");
     arguments.positional("NAME", request->name, "one of them, with its parameters and their defaults");
     arguments.flag("--verbose", request->verbose, "parameters and their defaults of all");
     arguments.flag("--json", request->json, "everything as JSON");

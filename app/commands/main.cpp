@@ -1,5 +1,5 @@
-// The program: splits the command line, runs one subcommand, and turns what it throws into messages and exit codes. This is
-// the only place that catches everything and the only place that knows exit codes (but for the signal handler).
+// The program: splits the command line, runs one subcommand, and turns what it throws into messages and exit codes.
+// This is the only place that catches everything and the only place that knows exit codes (but for the signal handler).
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
@@ -33,9 +33,11 @@ void runProgram(int argc, char** argv) {
     Arguments arguments(program);
     arguments.flag("--version", version, "print the versions of the program and of its libraries");
     arguments.help();
-    const Command commands[] = {addRenderCommand(program), addInfoCommand(program), addListCommand(program), addConvertCommand(program)};
+    const Command commands[] = {addRenderCommand(program), addInfoCommand(program), addListCommand(program),
+                                addConvertCommand(program)};
     program.allow_extras();
-    for (const Command& command : commands) command.parser->allow_extras();
+    for (const Command& command : commands)
+        command.parser->allow_extras();
     try {
         program.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -5,8 +5,8 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,9 @@ constexpr auto kRedraw = 200ms, kLine = 1000ms;
 
 }  // namespace
 
-std::string timeText() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+std::string timeText() {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
 
 std::string durationText(double seconds) {
     const auto whole = std::int64_t(std::llround(std::fmin(std::fmax(seconds, 0), 1e9)));
@@ -29,7 +31,10 @@ std::string durationText(double seconds) {
 }
 
 ProgressDisplay::ProgressDisplay(const RenderJob& job, ProgressStyle style, int descriptor)
-    : progress_(job.progress()), samplesPerPixel_(job.scene().samplesPerPixel), style_(style), descriptor_(descriptor),
+    : progress_(job.progress()),
+      samplesPerPixel_(job.scene().samplesPerPixel),
+      style_(style),
+      descriptor_(descriptor),
       terminal_(errorIsTerminal()) {
     if (style_ != ProgressStyle::None) thread_ = std::thread([this] { loop(); });
 }
@@ -48,7 +53,8 @@ ProgressDisplay::~ProgressDisplay() {
 void ProgressDisplay::loop() {
     const auto pause = style_ == ProgressStyle::People && terminal_ ? kRedraw : kLine;
     std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, pause, [this] { return ended_; })) show(false);
+    while (!wake_.wait_for(lock, pause, [this] { return ended_; }))
+        show(false);
 }
 
 void ProgressDisplay::show(bool last) {
@@ -65,7 +71,8 @@ double ProgressDisplay::elapsed() const {
 }
 
 double ProgressDisplay::fraction() const {
-    return progress_.samples ? double(progress_.samplesDone.load(std::memory_order_relaxed)) / double(progress_.samples) : 1;
+    return progress_.samples ? double(progress_.samplesDone.load(std::memory_order_relaxed)) / double(progress_.samples)
+                             : 1;
 }
 
 double ProgressDisplay::secondsLeft() const {
@@ -76,11 +83,15 @@ double ProgressDisplay::secondsLeft() const {
 void ProgressDisplay::drawBar(bool last) {
     const double done = fraction(), left = secondsLeft();
     const double rate = double(progress_.samplesDone.load(std::memory_order_relaxed)) / std::fmax(elapsed(), 1e-3);
-    const std::string time = last ? " in " + durationText(elapsed()) : left < 0 ? std::string() : "  " + durationText(left) + " left";
+    const std::string time = last       ? " in " + durationText(elapsed())
+                             : left < 0 ? std::string()
+                                        : "  " + durationText(left) + " left";
     const std::string text = fmt::format(" {:3.0f}%  {} samples/s{}", std::floor(100 * done), countText(rate), time);
     const int room = errorColumns() - int(text.size()) - 4;
     const int width = std::clamp(room, 0, 40), filled = int(done * width);
-    std::string bar = width >= 10 ? "[" + std::string(std::size_t(filled), '#') + std::string(std::size_t(width - filled), '.') + "]" : "";
+    std::string bar =
+        width >= 10 ? "[" + std::string(std::size_t(filled), '#') + std::string(std::size_t(width - filled), '.') + "]"
+                    : "";
     printTo(STDERR_FILENO, "\r" + bar + text + "\x1b[K" + (last ? "\n" : ""));
 }
 

@@ -1,8 +1,10 @@
 // The progress of a render, shown by a thread of its own while the render runs.
 //
-// For people, on standard error: a bar that redraws on a terminal; otherwise lines "Progress: 42%", at most one a second, a
-// form that render farms parse. For programs: one JSON object a line, once a second, on a descriptor of their choice:
-//   {"t": RFC 3339, "event": "progress", "spp": samples per pixel so far, "spp_target", "fraction", "eta_s", "rss": bytes}
+// For people, on standard error: a bar that redraws on a terminal; otherwise lines "Progress: 42%", at most one a
+// second, a form that render farms parse. For programs: one JSON object a line, once a second, on a descriptor of their
+// choice:
+//   {"t": RFC 3339, "event": "progress", "spp": samples per pixel so far, "spp_target", "fraction", "eta_s", "rss":
+//   bytes}
 // The time left assumes that the rest goes as fast as what is done; the order of tiles makes that nearly true.
 #pragma once
 
@@ -49,7 +51,7 @@ private:
     std::mutex mutex_;
     std::condition_variable wake_;
     bool ended_ = false;
-    std::thread thread_;   // last: the loop uses all above
+    std::thread thread_;  // last: the loop uses all above
 };
 
 /// Now, as "2026-11-26T01:02:03Z".

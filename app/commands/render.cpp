@@ -13,11 +13,11 @@
 #include "core/base/text.h"
 #include "integrators/registry.h"
 
-#include <CLI/CLI.hpp>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,8 @@ constexpr char kExamples[] =
     "  penumbra render cornell.pbrt --pixel 17,42 --sample 3\n";
 
 constexpr int kMostSamples = 1 << 30, kMostDepth = 100000, kMostReplicates = 4096;
-constexpr WholeRange kPixelNumbers{0, std::numeric_limits<std::int32_t>::max()}, kSides{1, std::numeric_limits<std::int32_t>::max()};
+constexpr WholeRange kPixelNumbers{0, std::numeric_limits<std::int32_t>::max()},
+    kSides{1, std::numeric_limits<std::int32_t>::max()};
 
 struct RenderRequest {
     RenderOptions options;
@@ -46,9 +47,9 @@ struct RenderRequest {
     bool quiet = false, strict = false;
     std::optional<std::pair<int, int>> pixel;
     std::optional<std::uint32_t> sample;
-    std::string statistics;               ///< "text", "json", or empty: none
+    std::string statistics;  ///< "text", "json", or empty: none
     ProgressStyle progress = ProgressStyle::People;
-    int progressDescriptor = STDOUT_FILENO;   ///< of the JSON lines
+    int progressDescriptor = STDOUT_FILENO;  ///< of the JSON lines
 };
 
 /// "none", "json" or "json:3".
@@ -57,16 +58,19 @@ void setProgress(RenderRequest& request, const std::string& text) {
     const std::size_t colon = std::min(text.find(':'), text.size());
     const std::string form = text.substr(0, colon);
     if (form != "json" && text != "none")
-        throw Error(ErrorKind::Usage, "--progress: unknown form " + quote(text) + "; known: none, json, json:DESCRIPTOR");
+        throw Error(ErrorKind::Usage,
+                    "--progress: unknown form " + quote(text) + "; known: none, json, json:DESCRIPTOR");
     request.progress = form == "json" ? ProgressStyle::Json : ProgressStyle::None;
     if (colon == text.size()) return;
-    request.progressDescriptor = int(Arguments::parseWhole("--progress", text.substr(colon + 1), {0, kMostDescriptors}));
+    request.progressDescriptor =
+        int(Arguments::parseWhole("--progress", text.substr(colon + 1), {0, kMostDescriptors}));
     if (::fcntl(request.progressDescriptor, F_GETFD) == -1)
         throw Error(ErrorKind::Usage, fmt::format("--progress: descriptor {} is not open", request.progressDescriptor));
 }
 
 void checkRequest(const RenderRequest& request) {
-    if (request.options.scene.empty()) throw Error(ErrorKind::Usage, "a scene is missing: penumbra render SCENE -o PICTURE");
+    if (request.options.scene.empty())
+        throw Error(ErrorKind::Usage, "a scene is missing: penumbra render SCENE -o PICTURE");
     if (request.pixel.has_value() != request.sample.has_value())
         throw Error(ErrorKind::Usage, "--pixel and --sample belong together: they name the sample to replay");
     if (!request.statistics.empty() && request.statistics != "text" && request.statistics != "json")
@@ -78,32 +82,40 @@ void replay(const RenderJob& job, const RenderRequest& request) {
     const auto [x, y] = *request.pixel;
     const Spectrum<float> alone = job.replay(x, y, *request.sample, 1), wide = job.replay(x, y, *request.sample, 8);
     for (const auto channel : {&Spectrum<float>::r, &Spectrum<float>::g, &Spectrum<float>::b})
-        if (floatBits(alone.*channel) != floatBits(wide.*channel) && !(std::isnan(alone.*channel) && std::isnan(wide.*channel)))
-            throw Error(ErrorKind::Internal,
-                        fmt::format("determinism alarm: one lane gives {:.9g} {:.9g} {:.9g}, eight lanes give {:.9g} {:.9g} {:.9g}",
-                                    alone.r, alone.g, alone.b, wide.r, wide.g, wide.b));
+        if (floatBits(alone.*channel) != floatBits(wide.*channel) &&
+            !(std::isnan(alone.*channel) && std::isnan(wide.*channel)))
+            throw Error(
+                ErrorKind::Internal,
+                fmt::format(
+                    "determinism alarm: one lane gives {:.9g} {:.9g} {:.9g}, eight lanes give {:.9g} {:.9g} {:.9g}",
+                    alone.r, alone.g, alone.b, wide.r, wide.g, wide.b));
     printOut(fmt::format("{:.9g} {:.9g} {:.9g}\n", alone.r, alone.g, alone.b));
     if (std::isnan(alone.r) && !request.quiet)
-        printWarning("the sample is not finite, or beyond the range of the film: the film counts it as invalid and holds black for it");
+        printWarning(
+            "the sample is not finite, or beyond the range of the film: the film counts it as invalid and holds black "
+            "for it");
 }
 
 /// Says which samples were lost, with the commands that replay them.
 void reportInvalid(const RenderJob& job) {
     constexpr std::size_t kMostShown = 4;
     const RenderCounts& counts = job.counts();
-    std::string text = fmt::format("{} of {} samples were not finite and count as black; to replay {}:", counts.invalid, counts.paths,
-                                   counts.invalid == 1 ? "it" : "them");
+    std::string text = fmt::format("{} of {} samples were not finite and count as black; to replay {}:", counts.invalid,
+                                   counts.paths, counts.invalid == 1 ? "it" : "them");
     const std::size_t shown = std::min(kMostShown, counts.firstInvalid.size());
-    for (std::size_t i = 0; i < shown; ++i) text += "\n  " + replayCommand(job, counts.firstInvalid[i]);
+    for (std::size_t i = 0; i < shown; ++i)
+        text += "\n  " + replayCommand(job, counts.firstInvalid[i]);
     if (counts.invalid > shown) text += fmt::format("\n  and {} more", counts.invalid - shown);
     printWarning(text);
 }
 
-void reportPicture(const RenderJob& job, const std::string& path, const std::string& through, const RenderStatistics& statistics) {
+void reportPicture(const RenderJob& job, const std::string& path, const std::string& through,
+                   const RenderStatistics& statistics) {
     const CropWindow& crop = job.film().crop();
     const int samples = job.scene().samplesPerPixel;
-    printNote(fmt::format("wrote {}: {}x{}, {} sample{} per pixel in {:.2f} s; standard error (rms) {}", pathText(path), crop.width(),
-                          crop.height(), samples, samples == 1 ? "" : "s", statistics.times.render, errorText(statistics.error)));
+    printNote(fmt::format("wrote {}: {}x{}, {} sample{} per pixel in {:.2f} s; standard error (rms) {}", pathText(path),
+                          crop.width(), crop.height(), samples, samples == 1 ? "" : "s", statistics.times.render,
+                          errorText(statistics.error)));
     if (!through.empty()) printNote("colours went through " + through);
 }
 
@@ -112,7 +124,8 @@ void printStatistics(const RenderJob& job, const RenderRequest& request, const R
     if (request.statistics == "json") printOut(statisticsJson(statistics, job) + "\n");
 }
 
-void printFinalEvent(const RenderJob& job, const std::string& path, const RenderStatistics& statistics, int descriptor) {
+void printFinalEvent(const RenderJob& job, const std::string& path, const RenderStatistics& statistics,
+                     int descriptor) {
     const nlohmann::ordered_json line = {
         {"t", timeText()},
         {"event", "done"},
@@ -165,10 +178,11 @@ void runRender(const RenderRequest& request) {
 
 /// A choice among the values of an enumeration by their names.
 template <class Value>
-void addEnum(Arguments& arguments, const std::string& names, std::vector<std::pair<std::string, Value>> values, auto& target,
-             const std::string& help) {
+void addEnum(Arguments& arguments, const std::string& names, std::vector<std::pair<std::string, Value>> values,
+             auto& target, const std::string& help) {
     std::vector<std::string> known;
-    for (const auto& value : values) known.push_back(value.first);
+    for (const auto& value : values)
+        known.push_back(value.first);
     arguments.choice(names, known, help, [values, &target](const std::string& name) {
         target = std::find_if(values.begin(), values.end(), [&](const auto& v) { return v.first == name; })->second;
     });
@@ -176,55 +190,74 @@ void addEnum(Arguments& arguments, const std::string& names, std::vector<std::pa
 
 void addOutput(Arguments& arguments, RenderRequest& r) {
     arguments.group("Output");
-    arguments.text("-o,--outfile", "FILE", "the picture: .exr with its error, or .png .jpg .tif .hdr .pfm (default: the film's filename)",
+    arguments.text("-o,--outfile", "FILE",
+                   "the picture: .exr with its error, or .png .jpg .tif .hdr .pfm (default: the film's filename)",
                    [&r](const std::string& t) { r.outfile = t; });
     arguments.flag("--quiet", r.quiet, "say nothing but errors");
     arguments.optionalText("--stats", "text", "json", r.statistics,
                            "what the render took: for people on standard error, as JSON on standard output");
-    arguments.text("--progress", "FORM", "none, or JSON lines: json (on standard output), json:DESCRIPTOR (default: a bar or lines for people)",
-                   [&r](const std::string& t) { setProgress(r, t); });
-    arguments.flag("--strict", r.strict, "warnings are errors, and so are samples that are not finite (the picture is then still written)");
+    arguments.text(
+        "--progress", "FORM",
+        "none, or JSON lines: json (on standard output), json:DESCRIPTOR (default: a bar or lines for people)",
+        [&r](const std::string& t) { setProgress(r, t); });
+    arguments.flag("--strict", r.strict,
+                   "warnings are errors, and so are samples that are not finite (the picture is then still written)");
 }
 
 void addSampling(Arguments& arguments, RenderRequest& r) {
     BuildOptions& b = r.options.build;
     arguments.group("Sampling (default: as the scene says)");
-    arguments.whole("--spp", "N", {1, kMostSamples}, b.samplesOverride, "samples per pixel; powers of two serve the sobol sampler best");
-    arguments.text("--resolution", "WxH", "size of the whole picture in pixels; a crop keeps its fraction", [&b](const std::string& t) {
-        std::tie(b.width, b.height) = Arguments::parsePair("--resolution", t, 'x', kSides);
-    });
-    arguments.whole("--seed", "N", {0, std::numeric_limits<std::uint32_t>::max()}, b.seed, "seed of the sampler, from 0 to 4294967295");
-    arguments.choice("--sampler", pluginNames(SamplerTypes{}), "the sampler", [&b](const std::string& t) { b.sampler = t; });
-    arguments.whole("--replicates", "N", {1, kMostReplicates}, r.options.replicates,
-                    "independent randomisations whose spread gives the error (default: 1, which takes samples as independent)");
+    arguments.whole("--spp", "N", {1, kMostSamples}, b.samplesOverride,
+                    "samples per pixel; powers of two serve the sobol sampler best");
+    arguments.text("--resolution", "WxH", "size of the whole picture in pixels; a crop keeps its fraction",
+                   [&b](const std::string& t) {
+                       std::tie(b.width, b.height) = Arguments::parsePair("--resolution", t, 'x', kSides);
+                   });
+    arguments.whole("--seed", "N", {0, std::numeric_limits<std::uint32_t>::max()}, b.seed,
+                    "seed of the sampler, from 0 to 4294967295");
+    arguments.choice("--sampler", pluginNames(SamplerTypes{}), "the sampler",
+                     [&b](const std::string& t) { b.sampler = t; });
+    arguments.whole(
+        "--replicates", "N", {1, kMostReplicates}, r.options.replicates,
+        "independent randomisations whose spread gives the error (default: 1, which takes samples as independent)");
 }
 
 void addTransport(Arguments& arguments, RenderRequest& r) {
     BuildOptions& b = r.options.build;
     arguments.group("Light transport (default: as the scene says)");
-    arguments.choice("--integrator", pluginNames(IntegratorTypes{}), "the integrator", [&b](const std::string& t) { b.integrator = t; });
+    arguments.choice("--integrator", pluginNames(IntegratorTypes{}), "the integrator",
+                     [&b](const std::string& t) { b.integrator = t; });
     arguments.whole("--maxdepth", "N", {0, kMostDepth}, b.maxDepth, "scattering events of a path at most");
-    addEnum<RouletteRule>(arguments, "--roulette", {{"late", RouletteRule::Late}, {"pbrt", RouletteRule::Pbrt}, {"off", RouletteRule::Off}},
+    addEnum<RouletteRule>(arguments, "--roulette",
+                          {{"late", RouletteRule::Late}, {"pbrt", RouletteRule::Pbrt}, {"off", RouletteRule::Off}},
                           b.roulette, "when faint paths may end early (default: late)");
-    addEnum<Strategy>(arguments, "--strategy", {{"mis", Strategy::Mis}, {"bsdf", Strategy::BsdfOnly}, {"light", Strategy::LightOnly}},
-                      b.strategy, "how light is looked for: both ways combined, scattered rays alone, light samples alone (default: mis)");
-    addEnum<LightSelection>(arguments, "--light-selection", {{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}},
-                            b.lightSelection, "which light is sampled next (default: power)");
-    addEnum<bool>(arguments, "--light-sampling", {{"solid-angle", false}, {"area", true}}, b.classicArea,
-                  "how a point on an area light is chosen: by the solid angle it covers, or evenly by area, the classic estimator of "
-                  "textbooks: cosine at the surface x cosine at the light x area / distance squared (default: solid-angle)");
-    addEnum<IntersectionMode>(arguments, "--intersection", {{"robust", IntersectionMode::Robust}, {"fast", IntersectionMode::Fast}},
-                              b.intersection, "watertight, or faster with a ray in a million slipping through edges (default: robust)");
+    addEnum<Strategy>(
+        arguments, "--strategy", {{"mis", Strategy::Mis}, {"bsdf", Strategy::BsdfOnly}, {"light", Strategy::LightOnly}},
+        b.strategy,
+        "how light is looked for: both ways combined, scattered rays alone, light samples alone (default: mis)");
+    addEnum<LightSelection>(arguments, "--light-selection",
+                            {{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}, b.lightSelection,
+                            "which light is sampled next (default: power)");
+    addEnum<bool>(
+        arguments, "--light-sampling", {{"solid-angle", false}, {"area", true}}, b.classicArea,
+        "how a point on an area light is chosen: by the solid angle it covers, or evenly by area, the classic "
+        "estimator of "
+        "textbooks: cosine at the surface x cosine at the light x area / distance squared (default: solid-angle)");
+    addEnum<IntersectionMode>(arguments, "--intersection",
+                              {{"robust", IntersectionMode::Robust}, {"fast", IntersectionMode::Fast}}, b.intersection,
+                              "watertight, or faster with a ray in a million slipping through edges (default: robust)");
 }
 
 void addRunning(Arguments& arguments, RenderRequest& r) {
     arguments.group("Running");
     arguments.whole("-t,--nthreads", "N", {1, kMostThreads}, r.threads,
                     "threads (default: $SLURM_CPUS_PER_TASK, $CUE_THREADS, else every processor)");
-    addEnum<int>(arguments, "--lanes", {{"8", 8}, {"1", 1}}, r.options.controls.lanes, "paths traced side by side; changes no bit (default: 8)");
+    addEnum<int>(arguments, "--lanes", {{"8", 8}, {"1", 1}}, r.options.controls.lanes,
+                 "paths traced side by side; changes no bit (default: 8)");
     arguments.text("--pixel", "X,Y", "with --sample: replay one sample instead of rendering, and print its R G B",
                    [&r](const std::string& t) { r.pixel = Arguments::parsePair("--pixel", t, ',', kPixelNumbers); });
-    arguments.whole("--sample", "I", {0, kMostSamples - 1}, r.sample, "the sample of the pixel to replay, counted from 0");
+    arguments.whole("--sample", "I", {0, kMostSamples - 1}, r.sample,
+                    "the sample of the pixel to replay, counted from 0");
     arguments.help();
 }
 

@@ -17,7 +17,8 @@ int chooseThreads(int asked) {
         const std::string text = value;
         int threads = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), threads);
-        if (error == std::errc() && end == text.data() + text.size() && threads >= 1 && threads <= kMostThreads) return threads;
+        if (error == std::errc() && end == text.data() + text.size() && threads >= 1 && threads <= kMostThreads)
+            return threads;
         printWarning(std::string(variable) + " is " + quote(text) + ", which is no number of threads; it is ignored");
     }
     return 0;

@@ -244,6 +244,11 @@ const std::string& DisplayTransform::configuration() const {
     return state_->source;
 }
 
+std::string DisplayTransform::description() const {
+    return fmt::format("display {}, view {} of the OpenColorIO configuration {}", quote(display()), quote(view()),
+                       configuration());
+}
+
 std::vector<DisplayList> listDisplays(const std::string& path) {
     const LoadedConfig loaded = loadConfig(path);
     std::vector<DisplayList> list;

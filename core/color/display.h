@@ -41,6 +41,8 @@ public:
     const std::string& view() const;
     /// "built in", or the path, with "$OCIO" before it where the environment chose it: results depend on it, so say it.
     const std::string& configuration() const;
+    /// All three, for people: "display 'sRGB', view 'Standard' of the OpenColorIO configuration built in".
+    std::string description() const;
 
 private:
     struct State;
