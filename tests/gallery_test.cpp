@@ -1,4 +1,5 @@
-// The scenes that come with Penumbra: each reads without a warning, renders without an invalid sample, and is described.
+// The scenes that come with Penumbra: each reads without a warning, renders without an invalid sample, and is
+// described.
 #include "app/batch/render_job.h"
 #include "core/statistics/hypothesis_tests.h"
 #include "tests/temporary_folder.h"
@@ -80,7 +81,8 @@ TEST(GalleryFurnace, IsFlat) {
                 for (int x = bx; x < bx + kBlock; ++x)
                     values.push_back(job.film().estimate(std::size_t(y * kWidth + x)).mean[1]);
             const TestResult result = studentTest(momentsOf(values), 0.5);
-            EXPECT_GT(result.pValue, kFalseAlarm / kBlocks) << "block at " << bx << "," << by << ", t = " << result.statistic;
+            EXPECT_GT(result.pValue, kFalseAlarm / kBlocks)
+                << "block at " << bx << "," << by << ", t = " << result.statistic;
         }
 }
 
