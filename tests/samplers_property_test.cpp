@@ -118,7 +118,7 @@ TEST(Samplers, ReplicatesAreIndependentRandomisationsOfTheSamePoints) {
 
 TEST(SobolSampler, EveryElementaryIntervalHasOnePoint) {
     const Sampler s{SobolSampler{}};
-    for (Dim dim : {Dim::LightPosition, Dim::Filter})
+    for (Dim dim : {Dim::Direction, Dim::Filter})
         for (std::uint32_t pixel = 0; pixel < 20; ++pixel)
             for (int logN = 2; logN <= 10; logN += 2)
                 for (int a = 0; a <= logN; ++a) {
@@ -149,7 +149,7 @@ double meanSquaredError(const Sampler& s, std::uint32_t n, std::uint32_t pixels,
     for (std::uint32_t p = 0; p < pixels; ++p) {
         double mean = 0;
         for (std::uint32_t i = 0; i < n; ++i) {
-            const Vec2<float> u = s.at<float>(address(p, i), 1).get2(Dim::LightPosition);
+            const Vec2<float> u = s.at<float>(address(p, i), 1).get2(Dim::Direction);
             mean += f(double(u.x), double(u.y)) / n;
         }
         sum += (mean - truth) * (mean - truth) / pixels;
