@@ -72,6 +72,4 @@ endif()
 penumbra_find_library(Penumbra::imath HEADER ImathVec.h SUBFOLDER Imath LIBRARIES Imath)
 penumbra_find_library(Penumbra::openexr HEADER ImfHeader.h SUBFOLDER OpenEXR
     LIBRARIES OpenEXR Iex IlmThread LINK Penumbra::imath Threads::Threads)
-penumbra_find_library(Penumbra::oiio HEADER OpenImageIO/imageio.h
-    LIBRARIES OpenImageIO OpenImageIO_Util LINK Penumbra::imath)
 penumbra_find_library(Penumbra::ocio HEADER OpenColorIO/OpenColorIO.h LIBRARIES OpenColorIO)

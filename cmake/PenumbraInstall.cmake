@@ -14,12 +14,17 @@ set_target_properties(penumbra_api PROPERTIES EXPORT_NAME penumbra)
 target_link_libraries(penumbra_api INTERFACE penumbra_batch)
 target_compile_features(penumbra_api INTERFACE cxx_std_20)
 target_include_directories(penumbra_api INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/penumbra>)
+# Programs of others lie in folders of their own: their run path leads to the modules (core/base/module.h).
+target_link_options(penumbra_api INTERFACE
+    $<BUILD_INTERFACE:-Wl,-rpath,$<TARGET_FILE_DIR:penumbra_oiio>>
+    $<INSTALL_INTERFACE:-Wl,-rpath,$<INSTALL_PREFIX>/${PENUMBRA_INSTALL_MODULEDIR}>)
 
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra")
 install(TARGETS penumbra_api penumbra_core penumbra_samplers penumbra_materials penumbra_lights penumbra_scenes
                 penumbra_integrators penumbra_batch
     EXPORT PenumbraTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT PenumbraTargets NAMESPACE Penumbra:: DESTINATION "${package_folder}")
+install(TARGETS penumbra_oiio LIBRARY DESTINATION "${PENUMBRA_INSTALL_MODULEDIR}")
 if(TARGET penumbra)
     install(TARGETS penumbra)
 endif()
@@ -48,6 +53,6 @@ if(PENUMBRA_TESTS AND NOT PENUMBRA_SANITIZE)
     add_test(NAME InstalledPackage COMMAND "${CMAKE_COMMAND}"
         "-DBINARY_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER=${PROJECT_SOURCE_DIR}/tests/consumer"
         "-DGENERATOR=${CMAKE_GENERATOR}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DVERSION=${PROJECT_VERSION}"
-        "-DHEADERS=${headers}" -P "${PROJECT_SOURCE_DIR}/cmake/TestInstalledPackage.cmake")
+        "-DHEADERS=${headers}" "-DBINDIR=${CMAKE_INSTALL_BINDIR}" -P "${PROJECT_SOURCE_DIR}/cmake/TestInstalledPackage.cmake")
     set_tests_properties(InstalledPackage PROPERTIES TIMEOUT 300)
 endif()

@@ -8,7 +8,7 @@ endif()
 
 add_executable(penumbra_tests ${sources})
 target_link_libraries(penumbra_tests PRIVATE penumbra_cpu_check penumbra_lab penumbra_proof GTest::gtest
-    Penumbra::embree Penumbra::oiio Penumbra::ocio Penumbra::openexr TBB::tbb OpenSSL::Crypto ZLIB::ZLIB
+    Penumbra::embree Penumbra::ocio Penumbra::openexr TBB::tbb OpenSSL::Crypto ZLIB::ZLIB
     fmt::fmt nlohmann_json::nlohmann_json Boost::headers)
 if(NOT EXISTS "${PROJECT_SOURCE_DIR}/tests/main.cpp")
     target_link_libraries(penumbra_tests PRIVATE GTest::gtest_main)

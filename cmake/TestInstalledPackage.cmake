@@ -1,4 +1,5 @@
-# Installs the build in BINARY_DIR into a fresh prefix, builds the program in CONSUMER against it, and runs it.
+# Installs the build in BINARY_DIR into a fresh prefix, runs the program there, which must find its module, builds the
+# program in CONSUMER against the package, and runs that.
 
 function(run)
     execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE status)
@@ -11,6 +12,10 @@ endfunction()
 set(folder "${BINARY_DIR}/installed_package")
 file(REMOVE_RECURSE "${folder}")
 run("${CMAKE_COMMAND}" --install "${BINARY_DIR}" --prefix "${folder}/prefix")
+run("${folder}/prefix/${BINDIR}/penumbra" --version)
+if(NOT output MATCHES "OpenImageIO [0-9]")
+    message(FATAL_ERROR "the installed program printed: ${output}")
+endif()
 run("${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${folder}/build" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
     "-DCMAKE_PREFIX_PATH=${folder}/prefix" "-DPENUMBRA_VERSION=${VERSION}" "-DPENUMBRA_HEADERS=${HEADERS}")
 run("${CMAKE_COMMAND}" --build "${folder}/build")

@@ -57,7 +57,7 @@ const std::vector<ThirdParty>& thirdParties() {
     static const std::vector<ThirdParty> table = {
         {"Embree", std::regex("embree[0-9]?/.*|rtcore.*"), "core/geometry/accelerator"},
         {"TBB", std::regex("(tbb|oneapi)/.*"), "core/base/parallel"},
-        {"OpenImageIO", std::regex("OpenImageIO/.*"), "core/image/image_io"},
+        {"OpenImageIO", std::regex("OpenImageIO/.*"), "core/image/oiio_module"},
         {"OpenEXR", std::regex("OpenEXR/.*|Imath/.*|Imf.*|Imath.*|half\\.h|Iex.*"), "core/image/exr"},
         {"OpenColorIO", std::regex("OpenColorIO/.*"), "core/color/display"},
         {"OpenSSL", std::regex("openssl/.*"), "core/base/sha256"},

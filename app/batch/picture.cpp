@@ -91,6 +91,7 @@ void checkPicturePath(const std::string& path) {
         throw Error(ErrorKind::CannotCreate,
                     pathText(path) + ": there is no folder " + quote(folder.string(), path.size()));
     const AtomicFile attempt(path);
+    loadImageLibraryFor(path);  // the installation may be incomplete
     if (imageFileKind(path) == ImageFileKind::DisplayEncoded)
         DisplayTransform({}, srgbColorSpace());  // $OCIO may be wrong
 }

@@ -1,11 +1,12 @@
 #include "core/image/image_io.h"
 
 #include "core/base/atomic_file.h"
+#include "core/base/module.h"
+#include "core/base/version.h"
 #include "core/image/essentials.h"
+#include "core/image/oiio_module.h"
 #include "core/image/pfm.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,10 +34,29 @@ const char* oiioName(ImageFormat format) {
     return "";
 }
 
-/// OpenImageIO works in the caller's thread.
-void configureLibrary() {
-    static const bool once = OIIO::attribute("threads", 1);
-    (void)once;
+const OiioModule& loadOiio() {
+    const auto interface =
+        reinterpret_cast<OiioModuleFunction*>(loadModuleFunction(kOiioModuleFile, kOiioModuleFunction));
+    const OiioModule* const module = interface(kVersion);
+    if (!module)
+        throw Error(ErrorKind::Configuration,
+                    fmt::format("Penumbra's module {} is not of version {}", kOiioModuleFile, kVersion));
+    return *module;
+}
+
+/// OpenImageIO, loaded when it is first asked for; where that fails, tried anew the next time.
+const OiioModule& oiio() {
+    static const OiioModule& module = loadOiio();
+    return module;
+}
+
+/// The same for work on a file, whose path the message then begins with.
+const OiioModule& oiioFor(const std::string& path) {
+    try {
+        return oiio();
+    } catch (const Error& e) {
+        failImage(path, e.what(), e.kind());
+    }
 }
 
 std::string firstLine(std::string text) {
@@ -50,40 +70,35 @@ std::string firstLine(std::string text) {
     failImage(path, reason.empty() ? "the image is damaged" : firstLine(reason));
 }
 
+void check(const std::string& path, const OiioResult& result) {
+    if (!result) return;
+    if (result->isMemory) throw std::bad_alloc();
+    refuse(path, result->reason);
+}
+
 /// An open file. PNG and JPEG are read from memory, from which the parts that no picture needs have been taken away.
 class Input {
 public:
     Input(const std::string& path, ImageFormat format, const ImageLimits& limits) : path_(path) {
         if (format == ImageFormat::Png) bytes_ = pngEssentials(path, limits);
         if (format == ImageFormat::Jpeg) bytes_ = jpegEssentials(path, limits);
-        // By format, never by path: open(path) would try other readers, whatever we have found the file to be.
-        in_ = OIIO::ImageInput::create(oiioName(format));
-        if (!in_) refuse(path, OIIO::geterror());
-        if (!bytes_.empty()) {
-            memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes_.data(), bytes_.size());
-            in_->set_ioproxy(memory_.get());
-        }
-        OIIO::ImageSpec spec, wishes;
-        wishes.attribute("oiio:UnassociatedAlpha", 1);  // colours as stored, not multiplied by alpha
-        in_->threads(1);
-        if (!in_->open(path, spec, wishes)) refuse(path, in_->geterror());
+        check(path, oiioFor(path).open({oiioName(format), path.c_str(), bytes_}, reader_));
     }
 
-    const OIIO::ImageSpec& spec() const { return in_->spec(); }
+    OiioSpec spec() const { return reader_->spec(); }
 
     /// The first channels of all pixels.
     template <class T>
-    std::vector<T> pixels(OIIO::TypeDesc type, int channels) {
+    std::vector<T> pixels(OiioValues type, int channels) {
         std::vector<T> out(std::size_t(spec().width) * spec().height * channels);
-        if (!in_->read_image(0, 0, 0, channels, type, out.data())) refuse(path_, in_->geterror());
+        check(path_, reader_->read(channels, type, out.data()));
         return out;
     }
 
 private:
     const std::string& path_;
-    std::string bytes_;
-    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;  // before in_, which uses it to its end
-    std::unique_ptr<OIIO::ImageInput> in_;
+    std::string bytes_;  // before reader_, which uses it to its end
+    std::unique_ptr<OiioReader> reader_;
 };
 
 /// How many of the file's channels make the image: grey with alpha gives grey, alpha is kept of PNG only.
@@ -93,24 +108,21 @@ int keptChannels(ImageFormat format, int inFile) {
 }
 
 Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const ReadImageOptions& options) {
-    configureLibrary();
     Input in(path, file.format, options.limits);
-    const OIIO::ImageSpec& spec = in.spec();
-    if (spec.nchannels < 1 || spec.depth > 1 || spec.deep) refuse(path, "not a flat picture");
+    const OiioSpec spec = in.spec();
+    if (spec.channels < 1 || !spec.isFlat) refuse(path, "not a flat picture");
 
-    const int channels = keptChannels(file.format, spec.nchannels);
-    const bool isByte = spec.format == OIIO::TypeUInt8;
-    const std::uint64_t fileBytes = spec.format.size() * spec.nchannels;
+    const int channels = keptChannels(file.format, spec.channels);
+    const bool isByte = spec.values == OiioValues::Bytes;
     checkImageSize(path, spec.width, spec.height,
-                   std::max<std::uint64_t>(fileBytes, isByte ? 1 : channels * sizeof(float)), file.bytes,
+                   std::max<std::uint64_t>(spec.bytesPerPixel, isByte ? 1 : channels * sizeof(float)), file.bytes,
                    options.limits, file.format == ImageFormat::Hdr ? 4 * kMostExpansion : kMostExpansion);
 
     const TransferFunction encoding = file.format == ImageFormat::Png ? options.pngEncoding : TransferFunction::srgb();
     if (isByte)
-        return Image(spec.width, spec.height, channels, in.pixels<std::uint8_t>(OIIO::TypeUInt8, channels), encoding);
-    const bool isLinear = spec.format.is_floating_point();
-    std::vector<float> pixels = in.pixels<float>(OIIO::TypeFloat, channels);
-    if (!isLinear)
+        return Image(spec.width, spec.height, channels, in.pixels<std::uint8_t>(OiioValues::Bytes, channels), encoding);
+    std::vector<float> pixels = in.pixels<float>(OiioValues::Floats, channels);
+    if (spec.values != OiioValues::Floats)
         for (float& v : pixels)
             v = encoding.decode(v);
     return Image(spec.width, spec.height, channels, std::move(pixels));
@@ -130,38 +142,24 @@ struct Encoder {
     int bits;  ///< 32: float
 };
 
-std::vector<unsigned char> encode(const std::string& path, const Encoder& encoder, OIIO::ImageSpec spec,
-                                  const void* pixels) {
-    configureLibrary();
+std::vector<unsigned char> encode(OiioPicture picture, OiioValues type, const void* values) {
+    picture.type = type;
+    picture.values = values;
     std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput proxy(bytes);
-    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(encoder.format);
-    const auto fail = [&](const std::string& reason) {
-        failImage(path, "cannot encode: " + firstLine(reason), ErrorKind::CannotWrite);
-    };
-    if (!out) fail(OIIO::geterror());
-    out->threads(1);
-    if (!out->set_ioproxy(&proxy)) fail("the library cannot encode to memory");
-    if (!out->open(path, spec)) fail(out->geterror());
-    if (!out->write_image(spec.format, pixels) || !out->close()) fail(out->geterror());
+    const OiioResult failure = oiioFor(picture.path).encode(picture, bytes);
+    if (failure && failure->isMemory) throw std::bad_alloc();
+    if (failure) failImage(picture.path, "cannot encode: " + firstLine(failure->reason), ErrorKind::CannotWrite);
     return bytes;
 }
 
-std::vector<unsigned char> encodeImage(const std::string& path, const Encoder& encoder, OIIO::ImageSpec spec,
-                                       std::span<const float> rgb) {
-    if (encoder.bits == 8) {
-        spec.format = OIIO::TypeUInt8;
-        return encode(path, encoder, spec, quantise<std::uint8_t>(rgb, 255).data());
-    }
-    if (encoder.bits == 16) {
-        spec.format = OIIO::TypeUInt16;
-        return encode(path, encoder, spec, quantise<std::uint16_t>(rgb, 65535).data());
-    }
-    if (std::string_view(encoder.format) != "hdr") return encode(path, encoder, spec, rgb.data());
+std::vector<unsigned char> encodeImage(const OiioPicture& picture, int bits, std::span<const float> rgb) {
+    if (bits == 8) return encode(picture, OiioValues::Bytes, quantise<std::uint8_t>(rgb, 255).data());
+    if (bits == 16) return encode(picture, OiioValues::Words, quantise<std::uint16_t>(rgb, 65535).data());
+    if (std::string_view(picture.format) != "hdr") return encode(picture, OiioValues::Floats, rgb.data());
     std::vector<float> positive(rgb.begin(), rgb.end());
     for (float& v : positive)
         v = v > 0 ? std::min(v, 1e30f) : 0;  // no sign, no infinity, no not-a-number in RGBE
-    return encode(path, encoder, spec, positive.data());
+    return encode(picture, OiioValues::Floats, positive.data());
 }
 
 Encoder encoderFor(const std::string& extension, const WriteImageOptions& options) {
@@ -198,17 +196,24 @@ void writeImage(const std::string& path, int width, int height, std::span<const 
     if (extension == "pfm") {
         file.write(encodePfm(width, height, rgb));
     } else {
-        OIIO::ImageSpec spec(width, height, 3, OIIO::TypeFloat);
-        spec.attribute("Compression", encoder.format == std::string_view("jpeg")
-                                          ? fmt::format("jpeg:{}", options.jpegQuality)
-                                          : "zip");
-        spec.attribute("jpeg:subsampling", "4:4:4");
-        spec.attribute("DateTime", "    :  :     :  :  ");  // Exif's "unknown", or TIFF would get the clock's
+        const bool isJpeg = encoder.format == std::string_view("jpeg");
+        const OiioPicture picture{.format = encoder.format,
+                                  .path = path.c_str(),
+                                  .width = width,
+                                  .height = height,
+                                  .type = OiioValues::Floats,
+                                  .values = rgb.data(),
+                                  .compression = isJpeg ? fmt::format("jpeg:{}", options.jpegQuality) : "zip"};
         const std::vector<unsigned char> bytes =
-            guardImage(path, ErrorKind::CannotWrite, [&] { return encodeImage(path, encoder, spec, rgb); });
+            guardImage(path, ErrorKind::CannotWrite, [&] { return encodeImage(picture, encoder.bits, rgb); });
         file.write(bytes.data(), bytes.size());
     }
     file.commit();
+}
+
+void loadImageLibraryFor(const std::string& path) {
+    const std::string extension = extensionOf(path);
+    if (extension != "exr" && extension != "pfm") oiioFor(path);
 }
 
 ImageFileKind imageFileKind(const std::string& path, const WriteImageOptions& options) {
@@ -218,8 +223,11 @@ ImageFileKind imageFileKind(const std::string& path, const WriteImageOptions& op
 }
 
 std::string imageLibraryVersion() {
-    const int version = OIIO::openimageio_version();
-    return fmt::format("OpenImageIO {}.{}.{}", version / 10000, version / 100 % 100, version % 100);
+    try {
+        return "OpenImageIO " + oiio().version();
+    } catch (const Error& e) {
+        return fmt::format("OpenImageIO is not to be had: {}", e.what());
+    }
 }
 
 }  // namespace penumbra

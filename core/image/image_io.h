@@ -1,4 +1,5 @@
-// Image files in and out. image_io.cpp is the only file that knows OpenImageIO (exr.cpp is that for OpenEXR).
+// Image files in and out. OpenImageIO is loaded with the first file that needs it (core/image/oiio_module.h); EXR and
+// PFM do without.
 //
 // Reading: a file is what its first bytes say (EXR, PNG, JPEG, HDR, TIFF, PFM), never what its name says; TGA, which
 // has no magic, by its extension and a valid header. All else is refused. Sizes are checked before memory is allocated,
@@ -6,8 +7,9 @@
 //
 // Writing: every file appears whole or not at all (core/base/atomic_file.h); the same input gives the same bytes.
 //
-// Errors: Error(MissingInput, BadData, CannotCreate, CannotWrite), the message beginning with the path; the exceptions
-// of the libraries end here, and they neither print nor start threads.
+// Errors: Error(MissingInput, BadData, CannotCreate, CannotWrite; Configuration where OpenImageIO cannot be loaded),
+// the message beginning with the path; the exceptions of the libraries end here, and they neither print nor decode in
+// threads of their own.
 //
 // Thread safety: all functions may be called from several threads at once.
 #pragma once
@@ -39,11 +41,15 @@ struct WriteImageOptions {
 void writeImage(const std::string& path, int width, int height, std::span<const float> rgb,
                 const WriteImageOptions& options = {});
 
+/// Loads what writeImage would need for the path, so that a broken installation is known before long work. Throws
+/// Error(Configuration).
+void loadImageLibraryFor(const std::string& path);
+
 /// What writeImage would take for the path; Unknown where it does not know the extension.
 enum class ImageFileKind { Unknown, DisplayEncoded, Linear };
 ImageFileKind imageFileKind(const std::string& path, const WriteImageOptions& options = {});
 
-/// "OpenImageIO 2.4.7", as the library says at run time.
+/// "OpenImageIO 2.4.7", as the library says at run time (it is loaded for that); where it cannot be loaded, why.
 std::string imageLibraryVersion();
 
 }  // namespace penumbra
