@@ -71,8 +71,8 @@ void expectRays(const Camera& camera, const std::function<ExactRay(double, doubl
         const float shutter = float(random());
         const CameraRay<float> ray = camera.ray(raster, lens, shutter);
         const ExactRay want = exact(raster.x, raster.y, lens.x, lens.y, shutter);
-        EXPECT_LT(length(toDouble(ray.origin) - want.origin), tolerance * (1 + length(want.origin)));
-        EXPECT_LT(length(toDouble(ray.direction) - want.direction), tolerance);
+        EXPECT_LT(length(widened(ray.origin) - want.origin), tolerance * (1 + length(want.origin)));
+        EXPECT_LT(length(widened(ray.direction) - want.direction), tolerance);
     }
 }
 
@@ -133,7 +133,7 @@ TEST(Camera, ThinLens) {
 TEST(Camera, RaysMeetInThePlaneOfFocus) {
     const auto job = jobWith("Camera \"perspective\" \"float lensradius\" .3 \"float focaldistance\" 5");
     const auto at5 = [](const CameraRay<float>& r) {
-        return toDouble(r.origin) + toDouble(r.direction) * ((5 - r.origin.z) / double(r.direction.z));
+        return widened(r.origin) + widened(r.direction) * ((5 - r.origin.z) / double(r.direction.z));
     };
     Random random(2);
     Vec3d sum;
@@ -142,8 +142,8 @@ TEST(Camera, RaysMeetInThePlaneOfFocus) {
         const CameraRay<float> r =
             job->scene().camera.ray<float>({10, 20}, {(float(i % 64) + 0.5f) / 64, (float(i / 64) + 0.5f) / 64}, 0.f);
         EXPECT_LT(length(at5(r) - at5(job->scene().camera.ray<float>({10, 20}, {0.5f, 0.5f}, 0.f))), 1e-5);
-        sum = sum + toDouble(r.origin);
-        squares += dot(toDouble(r.origin), toDouble(r.origin));
+        sum = sum + widened(r.origin);
+        squares += dot(widened(r.origin), widened(r.origin));
     }
     EXPECT_LT(length(sum) / 4096, 1e-6);
     EXPECT_NEAR(squares / 4096, 0.3 * 0.3 / 2, 1e-4);  // the mean of r^2 over a disk

@@ -68,8 +68,8 @@ std::vector<Ray> randomRays(Random& random, std::size_t count) {
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < count; ++i) {
         const Vec3d from = random.inCube(4), to = random.inCube(1.5);
-        const Vec3<float> o = toFloat3(from);
-        rays.push_back({o, normalize(toFloat3(to) - o), i % 3 ? kInfinity : float(6 * random()), float(random())});
+        const Vec3<float> o = rounded(from);
+        rays.push_back({o, normalize(rounded(to) - o), i % 3 ? kInfinity : float(6 * random()), float(random())});
     }
     return rays;
 }
@@ -80,8 +80,8 @@ std::vector<Ray> cameraRays(Random& random, std::size_t count) {
     while (rays.size() < count) {
         const Vec3d from = normalized(random.inCube(1)) * 4.0, to = random.inCube(1.2);
         for (int i = 0; i < 8; ++i) {
-            const Vec3<float> o = toFloat3(from + random.inCube(0.01));
-            rays.push_back({o, normalize(toFloat3(to + random.inCube(0.03)) - o), kInfinity, float(random())});
+            const Vec3<float> o = rounded(from + random.inCube(0.01));
+            rays.push_back({o, normalize(rounded(to + random.inCube(0.03)) - o), kInfinity, float(random())});
         }
     }
     return rays;
@@ -189,8 +189,7 @@ TEST(Accelerator, AgreesWithASearchInDouble) {
     Random random(2);
     std::size_t compared = 0, differ = 0;
     for (const Ray& r : randomRays(random, 40000)) {
-        const std::optional<ExactHit> exact =
-            everything.search(toDouble(r.origin), toDouble(r.direction), r.far, r.time);
+        const std::optional<ExactHit> exact = everything.search(widened(r.origin), widened(r.direction), r.far, r.time);
         const Answer a = alone(accelerator, r);
         const bool met = a[4] != kNoHit;
         const bool same = met == exact.has_value() &&
@@ -215,8 +214,8 @@ std::size_t escapes(const TriangleMesh& mesh, const Accelerator& accelerator, do
             const double u = aim == 2 ? random() / 2 : 0, v = aim == 0 ? 0 : random() / 2;
             const Vec3d q = vertex(mesh.indices[3 * t]) * (1 - u - v) + vertex(mesh.indices[3 * t + 1]) * v +
                             vertex(mesh.indices[3 * t + 2]) * u;
-            const Vec3<float> o = toFloat3(Vec3d{offset, offset, offset} + random.inCube(0.4 * scale));
-            const Ray ray{o, toFloat3(normalized(q - toDouble(o))), kInfinity, 0};
+            const Vec3<float> o = rounded(Vec3d{offset, offset, offset} + random.inCube(0.4 * scale));
+            const Ray ray{o, rounded(normalized(q - widened(o))), kInfinity, 0};
             out += alone(accelerator, ray)[4] == kNoHit;
         }
     return out;

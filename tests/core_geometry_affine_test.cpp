@@ -43,15 +43,15 @@ TEST(Affine, PointsVectorsAndNormalsAgreeWithMatrices) {
         Matrix4 inverse;
         ASSERT_TRUE(invert(m, inverse));
         const Affine<float> a = loadAffine<float>(&record, 0u);
-        const Vec3<float> v = toFloat3(random.inCube(3));
-        const Vec3d p = toDouble(a.point(v)), exact = transformPoint(m, toDouble(v));
+        const Vec3<float> v = rounded(random.inCube(3));
+        const Vec3d p = widened(a.point(v)), exact = transformPoint(m, widened(v));
         const Vec3<float> bound = a.pointError(v, {0, 0, 0});
         EXPECT_LE(std::abs(p.x - exact.x), bound.x);
         EXPECT_LE(std::abs(p.y - exact.y), bound.y);
         EXPECT_LE(std::abs(p.z - exact.z), bound.z);
-        EXPECT_LT(length(toDouble(a.vector(v)) - transformVector(m, toDouble(v))), 1e-5);
-        const Vec3d n = normalized(transformVector(transpose(inverse), toDouble(v)));
-        EXPECT_LT(length(normalized(toDouble(a.normal(v))) - n), 2e-5) << "mirrored: " << i % 2;
+        EXPECT_LT(length(widened(a.vector(v)) - transformVector(m, widened(v))), 1e-5);
+        const Vec3d n = normalized(transformVector(transpose(inverse), widened(v)));
+        EXPECT_LT(length(normalized(widened(a.normal(v))) - n), 2e-5) << "mirrored: " << i % 2;
     }
 }
 

@@ -74,11 +74,11 @@ TEST(Quadrics, HitsAgreeWithDoublePrecision) {
     for (const QuadricRecord& q : {sphere(1), partOfSphere(), ring()}) {
         int hits = 0, compared = 0;
         for (int i = 0; i < 20000; ++i) {
-            const Vec3<float> o = toFloat3(random.inCube(i % 4 ? 2.5 : 0.5));
-            const Vec3<float> d = normalize(toFloat3(random.inCube(1.2)) - o) * float(0.2 + 3 * random());
+            const Vec3<float> o = rounded(random.inCube(i % 4 ? 2.5 : 0.5));
+            const Vec3<float> d = normalize(rounded(random.inCube(1.2)) - o) * float(0.2 + 3 * random());
             const float far = i % 3 ? kInfinity : float(4 * random());
             double edge = 0;
-            const double exact = exactDistance(q, toDouble(o), toDouble(d), far, edge);
+            const double exact = exactDistance(q, widened(o), widened(d), far, edge);
             if (edge < 1e-4) continue;
             const QuadricHit<float> hit = intersectQuadric(q, o, d, 0.f, far);
             ASSERT_EQ(hit.hit, exact > 0) << "ray " << i;
@@ -100,10 +100,10 @@ TEST(Quadrics, SpheresOfAllSizes) {
         for (const double distance : {0.5, 3.0, 1e3}) {  // in radii
             const QuadricRecord q = sphere(radius);
             for (int i = 0; i < 5000; ++i) {
-                const Vec3<float> o = toFloat3(normalized(random.inCube(1)) * (distance * radius));
-                const Vec3<float> d = normalize(toFloat3(random.inCube(0.8 * radius)) - o);
+                const Vec3<float> o = rounded(normalized(random.inCube(1)) * (distance * radius));
+                const Vec3<float> d = normalize(rounded(random.inCube(0.8 * radius)) - o);
                 double edge = 0;
-                const double exact = exactDistance(q, toDouble(o), toDouble(d), 1e30, edge);
+                const double exact = exactDistance(q, widened(o), widened(d), 1e30, edge);
                 // The direction's own rounding, times the distance, is what the impact may be off by.
                 if (edge < 1e-3 + 4e-7 * distance * 100) continue;
                 const QuadricHit<float> hit = intersectQuadric(q, o, d, 0.f, kInfinity);
@@ -123,8 +123,8 @@ TEST(Quadrics, RaysThatLeaveDoNotComeBack) {
         const QuadricRecord q = sphere(radius);
         const Records<float, QuadricRecord> record(&q, 0u);
         for (int i = 0; i < 50000; ++i) {
-            const QuadricPoint<float> at = quadricPoint(record, toFloat3(normalized(random.inCube(1)) * radius));
-            Vec3<float> w = toFloat3(normalized(random.inCube(1)));
+            const QuadricPoint<float> at = quadricPoint(record, rounded(normalized(random.inCube(1)) * radius));
+            Vec3<float> w = rounded(normalized(random.inCube(1)));
             if (i % 4 == 0) w = normalize(w - at.normal * (dot(w, at.normal) * float(1 - 1e-4 * random())));  // grazing
             const Vec3<float> o = offsetOrigin(at.p, at.error, at.normal, w);
             const QuadricHit<float> hit = intersectQuadric(q, o, w, 0.f, kInfinity);
@@ -148,8 +148,8 @@ TEST(Quadrics, EightLanesGiveTheBitsOfOne) {
             Vec3<float> origins[8], directions[8];
             float ends[8];
             for (int k = 0; k < 8; ++k) {
-                origins[k] = toFloat3(random.inCube(2));
-                directions[k] = toFloat3(random.inCube(1));
+                origins[k] = rounded(random.inCube(2));
+                directions[k] = rounded(random.inCube(1));
                 ends[k] = k % 2 ? kInfinity : float(5 * random());
                 setLane(o.x, k, origins[k].x), setLane(o.y, k, origins[k].y), setLane(o.z, k, origins[k].z);
                 setLane(d.x, k, directions[k].x), setLane(d.y, k, directions[k].y), setLane(d.z, k, directions[k].z);

@@ -27,8 +27,8 @@ protected:
         std::vector<Sighting> list;
         Random random(seed);
         for (std::size_t i = 0; i < rays; ++i) {
-            const Vec3<float> o = toFloat3(random.inCube(4));
-            const Vec3<float> d = normalize(toFloat3(random.inCube(1.8)) - o);
+            const Vec3<float> o = rounded(random.inCube(4));
+            const Vec3<float> d = normalize(rounded(random.inCube(1.8)) - o);
             const float time = float(random());
             RayHitPacket p{};
             p.ray.originX[0] = o.x, p.ray.originY[0] = o.y, p.ray.originZ[0] = o.z;
@@ -36,7 +36,7 @@ protected:
             p.ray.far[0] = kInfinity, p.ray.time[0] = time, p.ray.mask[0] = ~0u;
             p.hit.geometry[0] = p.hit.instance[0] = kNoHit;
             accelerator_.intersect(p, 1);
-            const std::optional<ExactHit> exact = everything_.search(toDouble(o), toDouble(d), kInfinity, time);
+            const std::optional<ExactHit> exact = everything_.search(widened(o), widened(d), kInfinity, time);
             if (!exact || p.hit.geometry[0] != exact->geometry || p.hit.instance[0] != exact->instance ||
                 p.hit.primitive[0] != exact->primitive || std::abs(exact->t - p.ray.far[0]) > 1e-3)
                 continue;
@@ -72,19 +72,19 @@ TEST_F(SurfacePoints, AgreeWithDoublePrecision) {
         const std::string where =
             "shape " + std::to_string(s.hit.shape) + " instance " + std::to_string(int(s.hit.instance));
         // Along the surface a grazing ray amplifies the rounding of its origin and direction.
-        const double grazing = std::max(std::abs(dot(toDouble(s.direction), s.exact.ng)), 1e-3), reach = 4e-6 / grazing;
-        ASSERT_LT(length(toDouble(at.p) - s.exact.p), reach) << where;
-        ASSERT_LT(angle(toDouble(at.ng), s.exact.ng), isMesh(s) ? 4e-6 : 2e-5 + 8 * reach) << where;
-        ASSERT_NEAR(length(toDouble(at.ng)), 1, 1e-6);
+        const double grazing = std::max(std::abs(dot(widened(s.direction), s.exact.ng)), 1e-3), reach = 4e-6 / grazing;
+        ASSERT_LT(length(widened(at.p) - s.exact.p), reach) << where;
+        ASSERT_LT(angle(widened(at.ng), s.exact.ng), isMesh(s) ? 4e-6 : 2e-5 + 8 * reach) << where;
+        ASSERT_NEAR(length(widened(at.ng)), 1, 1e-6);
         const double tilt = isMesh(s) ? 2e-5 + 20 * reach : 2e-5 + 8 * reach;
         const Vec3d ns = s.exact.ns * (dot(s.exact.ns, s.exact.ng) < 0 ? -1.0 : 1.0);
-        ASSERT_LT(angle(toDouble(at.frame.n), ns), tilt) << where;
-        ASSERT_GE(dot(toDouble(at.frame.n), toDouble(at.ng)), -1e-6) << where;
+        ASSERT_LT(angle(widened(at.frame.n), ns), tilt) << where;
+        ASSERT_GE(dot(widened(at.frame.n), widened(at.ng)), -1e-6) << where;
         ASSERT_NEAR(at.uv.x, s.exact.u, 1e-5 + 20 * reach) << where;
         ASSERT_NEAR(at.uv.y, s.exact.v, 1e-5 + 40 * reach) << where;
         const Vec3d across = s.exact.tangent - ns * dot(ns, s.exact.tangent);
         if (length(across) > 0.05 * length(s.exact.tangent)) {
-            ASSERT_LT(angle(toDouble(at.frame.s), normalized(across)), 2e-4 + 400 * reach) << where;
+            ASSERT_LT(angle(widened(at.frame.s), normalized(across)), 2e-4 + 400 * reach) << where;
         }
         moving += s.hit.instance != kNone && geometry().instances[s.hit.instance].segments > 1;
     }
@@ -95,7 +95,7 @@ TEST_F(SurfacePoints, AgreeWithDoublePrecision) {
 TEST_F(SurfacePoints, FramesAreRightHanded) {
     for (const Sighting& s : sightings(10000, 2)) {
         const Frame<float> f = pointOf(s).frame;
-        const Vec3d a = toDouble(f.s), b = toDouble(f.t), n = toDouble(f.n);
+        const Vec3d a = widened(f.s), b = widened(f.t), n = widened(f.n);
         ASSERT_NEAR(dot(cross(a, b), n), 1, 1e-5);
         for (const double product : {dot(a, b), dot(b, n), dot(n, a)})
             ASSERT_NEAR(product, 0, 1e-5);
@@ -109,9 +109,9 @@ TEST_F(SurfacePoints, TheErrorBoundHolds) {
     double tightest = 0;
     for (const Sighting& s : sightings(30000, 3)) {
         const SurfacePoint<float> at = pointOf(s);
-        const double bound = dot(toDouble(abs(at.ng)), toDouble(at.error));
+        const double bound = dot(widened(abs(at.ng)), widened(at.error));
         // How far p is off the surface: a plane, or nearly one. The points differ along it, too.
-        const Vec3d off = toDouble(at.p) - s.exact.p;
+        const Vec3d off = widened(at.p) - s.exact.p;
         const double bend = isMesh(s) ? 0 : 3 * dot(off, off);
         const double distance = std::abs(dot(off, s.exact.ng));
         ASSERT_LE(distance, bound + bend) << "shape " << s.hit.shape;
@@ -126,9 +126,9 @@ TEST_F(SurfacePoints, RaysStartOnTheirSide) {
     Random random(4);
     for (const Sighting& s : sightings(10000, 5)) {
         const SurfacePoint<float> at = pointOf(s);
-        const Vec3<float> w = normalize(toFloat3(random.inCube(1)));
-        const Vec3d origin = toDouble(offsetOrigin(at.p, at.error, at.ng, w));
-        const double side = dot(toDouble(w), toDouble(at.ng)) < 0 ? -1 : 1;
+        const Vec3<float> w = normalize(rounded(random.inCube(1)));
+        const Vec3d origin = widened(offsetOrigin(at.p, at.error, at.ng, w));
+        const double side = dot(widened(w), widened(at.ng)) < 0 ? -1 : 1;
         ASSERT_GT(side * dot(origin - s.exact.p, s.exact.ng), 0) << "shape " << s.hit.shape;
     }
 }

@@ -7,6 +7,7 @@
 
 #include "core/geometry/geometry.h"
 #include "core/geometry/mesh.h"
+#include "tests/double_vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -19,34 +20,6 @@
 #include <vector>
 
 namespace penumbra::test {
-
-inline Vec3d operator+(Vec3d a, Vec3d b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3d operator-(Vec3d a, Vec3d b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec3d operator*(Vec3d a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
-}
-inline double dot(Vec3d a, Vec3d b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Vec3d cross(Vec3d a, Vec3d b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(Vec3d a) {
-    return std::sqrt(dot(a, a));
-}
-inline Vec3d normalized(Vec3d a) {
-    return a * (1 / length(a));
-}
-inline Vec3d toDouble(const Vec3<float>& a) {
-    return {a.x, a.y, a.z};
-}
-inline Vec3<float> toFloat3(Vec3d a) {
-    return {float(a.x), float(a.y), float(a.z)};
-}
 
 /// Numbers that are the same with every library.
 class Random {
