@@ -80,10 +80,13 @@ std::string commandRows(const CLI::App& program) {
     return text.empty() ? text : "\nCommands:\n" + text;
 }
 
+/// "penumbra render".
+std::string programName(const CLI::App& app) {
+    return (app.get_parent() ? app.get_parent()->get_name() + " " : "") + app.get_name();
+}
+
 std::string usage(const CLI::App& app) {
-    std::string line = "Usage: ";
-    if (app.get_parent()) line += app.get_parent()->get_name() + " ";
-    line += app.get_name();
+    std::string line = "Usage: " + programName(app);
     if (!app.get_subcommands({}).empty()) line += " COMMAND";
     line += " [options]";
     for (const CLI::Option* option : app.get_options())
@@ -111,7 +114,7 @@ void rejectFirst(const CLI::App& app, const std::vector<std::string>& words) {
         std::vector<std::string> known = optionNames(app);
         if (nearestNames(name, known).empty()) known.clear();  // fifty options would be no help
         throw Error(ErrorKind::Usage, "unknown option " + quote(name) + suggestion(name, known) + " (" +
-                                          app.get_name() + " --help lists all)");
+                                          programName(app) + " --help lists all)");
     }
     if (app.get_parent()) throw Error(ErrorKind::Usage, "one word too many: " + quote(words.front()));
     std::vector<std::string> known;

@@ -93,10 +93,14 @@ std::string asJson(const std::vector<Kind>& kinds) {
     return all.dump(2) + "\n";
 }
 
+std::string singular(const std::string& kind) {
+    return kind.substr(0, kind.size() - 1);
+}
+
 void runList(const ListRequest& request) {
     std::vector<Kind> list = kinds();
     if (!request.kind.empty()) keepOnly(list, "kind", request.kind);
-    if (!request.name.empty()) keepOnly(list.front().plugins, list.front().name, request.name);
+    if (!request.name.empty()) keepOnly(list.front().plugins, singular(list.front().name), request.name);
     printOut(request.json ? asJson(list) : asText(list, request.verbose || !request.name.empty()));
 }
 

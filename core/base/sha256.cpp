@@ -39,7 +39,9 @@ Sha256::~Sha256() = default;
 Sha256::Sha256(Sha256&&) noexcept = default;
 Sha256& Sha256::operator=(Sha256&&) noexcept = default;
 
-void Sha256::add(const void* data, std::size_t size) { check(EVP_DigestUpdate(state_->context.get(), data, size)); }
+void Sha256::add(const void* data, std::size_t size) {
+    check(EVP_DigestUpdate(state_->context.get(), data, size));
+}
 
 std::string Sha256::hex() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
