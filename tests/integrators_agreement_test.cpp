@@ -20,7 +20,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kSeeds = 16;
+constexpr int kSeeds = 24;
 constexpr std::size_t kComparisons = 9;
 constexpr double kAlpha = 1e-3 / kComparisons;  // of each comparison
 

@@ -176,6 +176,7 @@ void addSky(std::vector<AnalyticScene>& scenes) {
                               .integratorParameters = "\"float maxdistance\" [ 2 ]"},
                              floorSquare(.1) + rectangleZ(-10, 10, -10, 10, 1, Facing::Negative));
     limited.expected = grey(.25);
+    limited.samplesPerPixel = 256;
     scenes.push_back(limited);
 }
 
