@@ -65,13 +65,21 @@ private:
         throughput *= Spectrum<F>{exp(-sigma.r * d), exp(-sigma.g * d), exp(-sigma.b * d)};
     }
 
-    /// The medium on the side to which w points.
+    /// The medium on the side to which w points, at a border of media; else `medium`.
     template <class F>
     static UInt<F> mediumBehind(const SurfacePoint<F>& at, const Vec3<F>& w, const UInt<F>& medium) {
         const Mask<F> border = at.shape.has(kShapeMediumBoundary);
         if (none(border)) return medium;
         const UInt<F> side = select(dot(w, at.ng) < F(0.f), at.shape.mediumInside, at.shape.mediumOutside);
         return select(border, side, medium);
+    }
+
+    /// The medium of a ray that leaves in the direction w: another one where it goes through the surface.
+    template <class F>
+    static UInt<F> mediumOf(const SurfacePoint<F>& at, const RayGroup<F>& g, const Vec3<F>& w) {
+        if (none(at.shape.has(kShapeMediumBoundary))) return g.medium;
+        const Mask<F> crosses = dot(w, at.ng) * dot(g.direction, at.ng) > F(0.f);
+        return select(crosses, mediumBehind(at, w, g.medium), g.medium);
     }
 
     template <class F>
@@ -127,8 +135,7 @@ private:
         next.slot = g.slot;
         next.depth = g.depth + UInt<F>(1u);
         next.origin = offsetOrigin(at.p, at.error, at.ng, next.direction);
-        const Mask<F> crosses = dot(next.direction, at.ng) * dot(g.direction, at.ng) > F(0.f);
-        next.medium = select(crosses, mediumBehind(at, next.direction, g.medium), g.medium);
+        next.medium = mediumOf(at, g, next.direction);
         Mask<F> survives = goesOn & s.valid & !isBlack(next.throughput);
         if (roulette_ != RouletteRule::Off) survives = survives & playRoulette(numbers, next);
         step.go(g, next, survives);
@@ -155,7 +162,7 @@ private:
         if (strategy_ == Strategy::Mis) weight = select(light.delta, weight, weight * powerHeuristic(pdf, f.pdf));
         Spectrum<F> value = g.throughput * f.fCos * light.L * weight;
         const Mask<F> infinite = light.distance == F(kInfinity);
-        absorb(scene, g.medium, select(infinite, F(0.f), light.distance), value);
+        absorb(scene, mediumOf(at, g, light.wi), select(infinite, F(0.f), light.distance), value);
         wanted = wanted & !isBlack(value);
         // The light's own surface must not shadow its points: stop short by what rounding may have moved them.
         const F slack = light.distance * F(0x1p-16f) + maxComponent(abs(at.p)) * F(0x1p-20f);
