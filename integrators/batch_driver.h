@@ -15,6 +15,8 @@
 #include "integrators/path_batch.h"
 
 #include <algorithm>
+#include <bit>
+#include <limits>
 #include <xmmintrin.h>
 
 namespace penumbra {
@@ -31,7 +33,21 @@ private:
     unsigned saved_;
 };
 
-/// What a shader works with: the scene, the batch and where its results go.
+/// Embree aborts on rays that are not finite or start beyond 1.8e18.
+template <class F>
+Mask<F> isSound(const Vec3<F>& origin, const Vec3<F>& direction) {
+    const Vec3<F> o = abs(origin), d = abs(direction);
+    return (maxComponent(o) < F(1e18f)) & (o.x + o.y + o.z < F(1e19f)) & (d.x + d.y + d.z < F(2.f));
+}
+
+/// Makes invalid samples of the paths of the chosen lanes.
+template <class F>
+void breakPaths(SlotBuffer& slots, const UInt<F>& slot, unsigned lanes) {
+    for (; lanes; lanes &= lanes - 1) slots.r[lane(slot, std::countr_zero(lanes))] = std::numeric_limits<float>::quiet_NaN();
+}
+
+/// What a shader works with: the scene, the batch and where its results go. Rays that are not sound never reach Embree:
+/// their paths become invalid samples.
 template <class F>
 struct Step {
     const Scene& scene;
@@ -42,7 +58,9 @@ struct Step {
     void add(const RayGroup<F>& g, const Spectrum<F>& value) { addToSlot(batch.slots, g.slot, value); }
     void shadow(const RayGroup<F>& g, const Vec3<F>& origin, const Vec3<F>& direction, F far, const Spectrum<F>& value,
                 const Mask<F>& wanted) {
-        const unsigned keep = bits(Mask<F>(wanted & g.live));
+        const Mask<F> asked = wanted & g.live, sound = isSound(origin, direction);
+        breakPaths<F>(batch.slots, g.slot, bits(Mask<F>(asked & !sound)));
+        const unsigned keep = bits(Mask<F>(asked & sound));
         if (!keep) return;
         ShadowBuffer& s = batch.shadows;
         const int n = batch.shadowCount;
@@ -54,13 +72,8 @@ struct Step {
         batch.shadowCount = n + std::popcount(keep);
     }
     void go(const RayGroup<F>& g, const PathRay<F>& ray, const Mask<F>& wanted) {
-        // Embree aborts on rays that are not finite (or beyond 1.8e18); such a path becomes an invalid sample.
-        const Vec3<F> o = abs(ray.origin), d = abs(ray.direction);
-        const Mask<F> sound = (maxComponent(o) < F(1e18f)) & (o.x + o.y + o.z < F(1e19f)) & (d.x + d.y + d.z < F(2.f));
-        const Mask<F> going = wanted & g.live;
-        if (const unsigned broken = bits(Mask<F>(going & !sound)))
-            for (unsigned left = broken; left; left &= left - 1)
-                batch.slots.r[lane(g.slot, std::countr_zero(left))] = std::numeric_limits<float>::quiet_NaN();
+        const Mask<F> going = wanted & g.live, sound = isSound(ray.origin, ray.direction);
+        breakPaths<F>(batch.slots, g.slot, bits(Mask<F>(going & !sound)));
         const unsigned keep = bits(Mask<F>(going & sound));
         if (!keep) return;
         ray.store(batch.next(), nextCount, keep);
@@ -135,14 +148,15 @@ private:
                 if (++x == tile.x1) x = tile.x0, ++y;
             }
         }
-        for (int i = 0; i < count; i += W) cameraRays(i);
-        batch_.live = count;
+        batch_.live = 0;
+        for (int i = 0; i < count; i += W) cameraRays(i, count - i < W ? count - i : W);
         batch_.current = 0;
         pathCount_ = count;
         counts_.paths += std::uint64_t(count);
     }
 
-    void cameraRays(int at) {
+    /// Of `n` slots from `at` on.
+    void cameraRays(int at, int n) {
         SlotBuffer& s = batch_.slots;
         const UInt<F> slot = UInt<F>(std::uint32_t(at)) + laneIndices<F>();
         // The number of a pixel is that of the whole picture, so a crop renders the same samples.
@@ -165,7 +179,11 @@ private:
         store(s.covered + at, UInt<F>(0u));
         const PathRay<F> first{ray.origin, ray.direction, Spectrum<F>::constant(F(1.f)), F(0.f), F(1.f), ray.coneWidth, slot, UInt<F>(0u),
                                UInt<F>(scene_.cameraMedium)};
-        first.store(batch_.rays[0], at, (1u << W) - 1u);
+        const Mask<F> sound = isSound(ray.origin, ray.direction);
+        const unsigned asked = (1u << n) - 1u, keep = bits(sound) & asked;
+        breakPaths<F>(s, slot, asked & ~keep);
+        first.store(batch_.rays[0], batch_.live, keep);
+        batch_.live += std::popcount(keep);
     }
 
     void step(std::uint32_t vertex) {
