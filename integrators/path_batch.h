@@ -3,7 +3,7 @@
 // Two kinds of arrays. *Slots* stand still for the life of a path: what it has gathered and who it is. *Rays* are what changes
 // at every step; they live in two buffers, because shading reads one in the order of materials and packs the survivors into
 // the other. A ray names its slot.
-// Memory: about 160 bytes a path with both buffers; 1024 paths stay inside a second-level cache.
+// Memory: about 260 bytes a path with both buffers; 1024 paths stay inside a second-level cache of half a megabyte.
 // Thread safety: one batch belongs to one thread.
 #pragma once
 
