@@ -53,6 +53,17 @@ Vec3<F> loadVertex(const std::vector<float>& table, const UInt<F>& row) {
     return {r[0], r[1], r[2]};
 }
 
+/// The unit vector along v, whose square may be beyond the range of floats (normals grow and shrink with the square of a
+/// scale). Of usual vectors it is normalize().
+template <class F>
+Vec3<F> unitNormal(const Vec3<F>& v) {
+    const F squared = dot(v, v);
+    const Mask<F> usual = (squared > F(1e-30f)) & (squared < F(1e30f));
+    if (all(usual)) [[likely]] return v * (F(1.f) / sqrt(squared));
+    const F largest = max(maxComponent(abs(v)), F(1e-37f));   // 1 / largest is a normal number, too
+    return normalize(select(usual, v, v * (F(1.f) / largest)));
+}
+
 /// What a mesh or a quadric gives in its own space.
 template <class F>
 struct LocalSurface {
@@ -237,10 +248,10 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     }
     out.p = s.p;
     out.error = s.error;
-    out.ng = normalize(s.ng);
+    out.ng = unitNormal(s.ng);
     Vec3<F> n = out.ng;
     if (!s.isFlat) {
-        n = normalize(s.ns);
+        n = unitNormal(s.ns);
         // A shading normal on the wrong side of the face would turn the surface inside out.
         n = flipSign(dot(n, out.ng) < F(0.f), n);
     }
