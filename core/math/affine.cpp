@@ -8,7 +8,10 @@ namespace penumbra {
 AffineRecord toRecord(const Matrix4& a) {
     AffineRecord r;
     for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 4; ++j) r.m[4 * i + j] = float(a.m[std::size_t(i)][std::size_t(j)]);
+        for (int j = 0; j < 4; ++j)
+            // No negative zeros: interpolation between equal matrices would make positive ones of them, and whether lanes
+            // that stand still are interpolated depends on their neighbours.
+            r.m[4 * i + j] = float(a.m[std::size_t(i)][std::size_t(j)]) + 0.f;
     return r;
 }
 
