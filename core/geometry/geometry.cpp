@@ -17,7 +17,8 @@ std::uint32_t appendAttribute(std::vector<float>& all, std::vector<float>&& mesh
 
 /// Lanes address words by 31-bit offsets (gathers are signed).
 void checkSize(std::size_t words) {
-    if (words > 0x7FFFFFF0u) throw Error(ErrorKind::OutOfMemory, "the scene has too many vertices or triangles (over 2^31 words in one table)");
+    if (words > 0x7FFFFFF0u)
+        throw Error(ErrorKind::OutOfMemory, "the scene has too many triangles, shapes or instances (over 2^31 words in one table)");
 }
 
 }  // namespace
@@ -54,6 +55,10 @@ ShapeRecord Geometry::addQuadric(const QuadricRecord& q) {
 }
 
 void Geometry::finish() {
+    checkSize(shapes.size() * sizeof(ShapeRecord) / 4);
+    checkSize(quadrics.size() * sizeof(QuadricRecord) / 4);
+    checkSize(instances.size() * sizeof(InstanceRecord) / 4);
+    checkSize(matrices.size() * sizeof(AffineRecord) / 4);
     // Row loads read 16 bytes from the start of any row.
     for (std::vector<float>* v : {&positions, &normals, &uvs, &tangents}) {
         v->reserve(v->size() + kSpareFloats);
