@@ -37,8 +37,7 @@ constexpr char kExamples[] =
     "  penumbra render cornell.pbrt --pixel 17,42 --sample 3\n";
 
 constexpr int kMostSamples = 1 << 30, kMostDepth = 100000, kMostReplicates = 4096;
-constexpr WholeRange kPixelNumbers{0, std::numeric_limits<std::int32_t>::max()},
-    kSides{1, std::numeric_limits<std::int32_t>::max()};
+constexpr WholeRange kPixelNumbers{0, std::numeric_limits<std::int32_t>::max()}, kSides{1, 1 << 24};
 
 struct RenderRequest {
     RenderOptions options;

@@ -8,6 +8,7 @@
 namespace penumbra::builder {
 namespace {
 
+constexpr int kMostSide = 1 << 24;                              // coordinates of pixels are exact as floats
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 31;     // pixel numbers have 31 bits
 constexpr std::int64_t kMostFilmBytes = std::int64_t{1} << 34;  // 16 GiB
 constexpr std::int64_t kBytesPerPixel = sizeof(PixelSums) + sizeof(PixelSquares);
@@ -18,8 +19,9 @@ struct Resolution {
 };
 
 Resolution readResolution(const ParameterSet& film, const BuildContext& context) {
-    constexpr int kMost = std::numeric_limits<std::int32_t>::max();  // the product is checked, with the bytes, below
-    return {context.integer(film, "xresolution", 1280, 1, kMost), context.integer(film, "yresolution", 720, 1, kMost)};
+    // The product is checked, with the bytes, below.
+    return {context.integer(film, "xresolution", 1280, 1, kMostSide),
+            context.integer(film, "yresolution", 720, 1, kMostSide)};
 }
 
 /// Four numbers, or nothing where the parameter is absent.
