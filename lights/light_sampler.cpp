@@ -1,6 +1,7 @@
 #include "lights/light_sampler.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace penumbra {
 
@@ -15,7 +16,8 @@ LightSampler::LightSampler(LightSelection selection, const LightTable& lights, b
     std::vector<double> weights(lights.size());
     for (std::uint32_t id = 0; id < lights.size(); ++id) {
         const bool left = !includeUniformInfinite && lights.isA<ConstantInfiniteLight>(id);
-        const float power = left ? 0.f : lights.power(id);
+        // Beyond floats is the largest: weights that are not finite would count as 0.
+        const float power = left ? 0.f : std::min(lights.power(id), std::numeric_limits<float>::max());
         weights[id] = selection == LightSelection::Uniform ? double(power > 0.f) : double(power);
     }
     const auto positive = [](double w) { return w > 0; };
