@@ -1,7 +1,7 @@
 // Scenes without a closed form: whatever way a picture is found, its expectation is the same. Strategies, roulette
 // rules, samplers, ways of picking and of sampling lights are compared with the default ways.
 //
-// Each way renders every scene with 16 seeds; Welch's t on the means of the picture's quarters and of the whole, Holm's
+// Each way renders every scene with 24 seeds; Welch's t on the means of the picture's quarters and of the whole, Holm's
 // correction over all of a comparison's tests. Seeds are fixed; over their choice a right renderer fails any one of the
 // tests below with probability 1e-3 / 9 at most, and all of them together with 1e-3.
 // Power: every comparison, made again with one side off by 4 %, rejects (asserted for the whole picture).
