@@ -68,9 +68,13 @@ const std::vector<std::pair<std::string, std::string>>& scenes() {
         {"under the sky",
          settings(
              5, outside,
-             sky + "LightSource \"infinite\" \"rgb L\" [ .2 .2 .3 ]\n" + floor +
+             "MakeNamedMedium \"dark\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [ 1.5 1 .5 ] \"rgb sigma_s\" [ 0 0 0 ]\n" +
+                 sky + "LightSource \"infinite\" \"rgb L\" [ .2 .2 .3 ]\n" + floor +
+                 // A lamp seen through rough, absorbing glass: light samples leave into another medium than the path came from.
+                 scoped("AreaLightSource \"diffuse\" \"rgb L\" [ 4 4 4 ]\nTranslate -1.2 1 1.6\n"
+                        "Shape \"sphere\" \"float radius\" .4\n") +
                  scoped("Translate -.6 .6 0\nMaterial \"dielectric\" \"float roughness\" .3\n"
-                        "Shape \"sphere\" \"float radius\" .6\n") +
+                        "MediumInterface \"dark\" \"\"\nShape \"sphere\" \"float radius\" .6\n") +
                  scoped("Translate .7 .5 .2\nMaterial \"conductor\" \"float uroughness\" .5 \"float vroughness\" .2\n"
                         "Shape \"sphere\" \"float radius\" .5\n"))},
         {"moving under lamp and sky",

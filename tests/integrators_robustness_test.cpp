@@ -7,6 +7,7 @@
 #include <xmmintrin.h>
 
 #include <atomic>
+#include <cstdio>
 
 namespace penumbra {
 namespace {
@@ -171,6 +172,45 @@ TEST(InvalidSamples, ExtremeScenesStayFinite) {
                 sum += v;
             }
         EXPECT_GT(sum, 0) << world;
+    }
+}
+
+std::string text(double x) {
+    char buffer[32];
+    std::snprintf(buffer, sizeof buffer, "%g", x);
+    return buffer;
+}
+
+TEST(HostileNumbers, RaysThatAreNotFiniteBecomeInvalidSamples) {
+    // The library of rays aborts on them, so none may reach it.
+    const std::string floor = "Shape \"sphere\"\n";
+    for (const char* camera : {"Translate 1e30 0 0\nCamera \"perspective\"\n", "Scale 1e30 1e30 1e30\nCamera \"perspective\"\n",
+                               "Camera \"orthographic\" \"float screenwindow\" [ -1e30 1e30 -1e30 1e30 ]\n",
+                               "Camera \"perspective\" \"float lensradius\" 1e30\n"}) {
+        SCOPED_TRACE(camera);
+        Warnings warnings;
+        RenderJob job(readSceneText(camera + film(8, 8) + "Sampler \"sobol\" \"integer pixelsamples\" 4\nWorldBegin\n" + floor,
+                                    "test.pbrt", ".", warnings),
+                      {}, warnings);
+        job.run();
+        for (std::size_t i = 0; i < 64; ++i) {
+            const PixelEstimate e = job.film().estimate(i);
+            for (const double v : e.mean) EXPECT_TRUE(std::isfinite(v));
+        }
+    }
+}
+
+TEST(HostileNumbers, SurfacesOfEveryScaleAreLit) {
+    // Squares of such normals leave the range of floats. Albedo 0.5 under a sky of radiance 1: every pixel is 0.5.
+    for (const double scale : {1e-11, 1e-3, 1e10}) {
+        SCOPED_TRACE(scale);
+        const std::string size = text(scale), far = text(3 * scale);
+        const auto job = renderText("LookAt 0 0 -" + far + " 0 0 0 0 1 0\nCamera \"perspective\" \"float fov\" 10\n" + film(8, 8) +
+                                    "PixelFilter \"box\"\nIntegrator \"path\" \"integer maxdepth\" 1\nWorldBegin\n"
+                                    "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\nMaterial \"diffuse\" \"rgb reflectance\" [ .5 .5 .5 ]\n"
+                                    "Scale " + size + " " + size + " " + size + "\nShape \"sphere\"\n");
+        EXPECT_EQ(job->counts().invalid, 0u);
+        for (std::size_t i = 0; i < 64; ++i) EXPECT_NEAR(job->film().estimate(i).mean[1], 0.5, 1e-5);
     }
 }
 
