@@ -78,12 +78,20 @@ Filter::Axis::Axis(const FilterSettings& s, double r)
     splitPlace.assign(inverse.begin() + 1, inverse.end());
     for (std::size_t i = 0; i < kCells; ++i) {
         const double start = total * double(i) / kCells, end = total * double(i + 1) / kCells;
-        for (std::size_t z : zeros)
-            if (cumulative[z] > start && cumulative[z] < end) {
-                split[i] = float((cumulative[z] - start) / (end - start));
-                splitPlace[i] = float(-r + double(z) * h);
-            }
-        if (filterValue(s, r, 0.5 * (double(inverse[i]) + double(splitPlace[i]))) < 0) sign[i] = -1.f;
+        // A cell far out may hold several changes of sign: what counts is the exact share of its mass that has the first sign.
+        double share = 0, from = start, firstEnd = double(inverse[i + 1]);
+        bool asFirst = true;
+        for (std::size_t z : zeros) {
+            if (cumulative[z] <= start || cumulative[z] >= end) continue;
+            if (asFirst) share += cumulative[z] - from;
+            if (from == start) firstEnd = -r + double(z) * h;
+            from = cumulative[z];
+            asFirst = !asFirst;
+            splitPlace[i] = float(-r + double(z) * h);
+        }
+        if (asFirst) share += end - from;
+        split[i] = from == start ? 1.f : float(share / (end - start));
+        if (filterValue(s, r, 0.5 * (double(inverse[i]) + firstEnd)) < 0) sign[i] = -1.f;
     }
 }
 
