@@ -63,13 +63,13 @@ double margin(const ClosedFormMeasurement& m) {
 }
 
 /// Samples a pixel so that 64 seeds prove a right renderer right: the margin then spans 8 standard errors, where
-/// acceptance at 1e-3 takes 3.2, so the chance of a miss is below 1e-5 a scene. Variance is taken to fall as 1 /
-/// samples.
+/// acceptance at 1e-3 takes 3.2, so the chance of a miss is below 1e-5 a scene. Variance is taken to fall as 1 / samples;
+/// below what the scene asks for it would rise by more (good points are good only in numbers).
 int samplesForProof(const AnalyticScene& scene, const ClosedFormMeasurement& m) {
     constexpr int kReplicates = 64;
     const double error = m.replicates.standardError() / m.expected, wanted = margin(m) / 8;
     const double factor = std::pow(error / wanted, 2) * static_cast<double>(m.replicates.count) / kReplicates;
-    const double samples = std::clamp(scene.samplesPerPixel * factor, 1.0, 65536.0);
+    const double samples = std::clamp(scene.samplesPerPixel * std::max(factor, 1.0), 1.0, 65536.0);
     return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(samples))));
 }
 
