@@ -20,7 +20,8 @@ enum class IntersectionMode {
     Fast      ///< 10 to 28 % faster; about one ray in a million slips through an edge
 };
 
-/// What the caller knows of the rays of a packet. Speed alone: results are the same.
+/// What the caller knows of the rays of a packet. For speed; results are the same in Robust mode. In Fast mode a few hits at
+/// edges differ, so a ray that is traced again needs the same flag to be the same ray.
 enum class Coherence { Incoherent, Coherent };
 
 struct SceneBounds {
