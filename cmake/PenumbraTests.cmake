@@ -1,7 +1,9 @@
 # The tests: every tests/*.cpp goes into one GoogleTest program, penumbra_tests, and every suite of it is one entry of
 # ctest. (One entry a test would start the program, with all its libraries, a thousand times.)
 
-file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/tests/*.cpp")
+set(PENUMBRA_TEST_FILES "*" CACHE STRING "Which of tests/*.cpp are built: a list of patterns, such as materials_*;lights_*")
+list(TRANSFORM PENUMBRA_TEST_FILES REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/tests/\\1.cpp" OUTPUT_VARIABLE patterns)
+file(GLOB sources CONFIGURE_DEPENDS ${patterns})
 if(NOT sources)
     return()
 endif()

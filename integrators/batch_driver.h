@@ -129,6 +129,8 @@ public:
 
 private:
     static constexpr int W = kLanes<F>;
+    /// Live lanes of the group that begins at i of a run that ends at `end`.
+    static int groupSize(int i, int end) { return end - i < W ? end - i : W; }
 
     /// Makes the camera rays of paths first .. first + count of the tile. Samples of a pixel are neighbours, so packets start coherent.
     void begin(const Tile& tile, SampleRange samples, std::uint64_t first, int count) {
@@ -149,7 +151,7 @@ private:
             }
         }
         batch_.live = 0;
-        for (int i = 0; i < count; i += W) cameraRays(i, count - i < W ? count - i : W);
+        for (int i = 0; i < count; i += W) cameraRays(i, groupSize(i, count));
         batch_.current = 0;
         pathCount_ = count;
         counts_.paths += std::uint64_t(count);
@@ -208,7 +210,7 @@ private:
     template <class M>
     void shadeRun(Step<F>& step, const RayBuffer& r, int begin, int end, bool first) {
         for (int i = begin; i < end; i += W) {
-            const int n = end - i < W ? end - i : W;
+            const int n = groupSize(i, end);
             const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
             RayGroup<F> g;
             detail::gatherGroup<F>(g, batch_, r, at, n, scene_.hasMotion);
@@ -221,7 +223,7 @@ private:
 
     void missed(Step<F>& step, const RayBuffer& r, int begin) {
         for (int i = begin; i < batch_.live; i += W) {
-            const int n = batch_.live - i < W ? batch_.live - i : W;
+            const int n = groupSize(i, batch_.live);
             const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
             RayGroup<F> g;
             detail::gatherGroup<F>(g, batch_, r, at, n, false);
@@ -234,7 +236,7 @@ private:
         const RayBuffer& r = batch_.now();
         counts_.rays += std::uint64_t(batch_.live);
         for (int i = 0; i < batch_.live; i += W) {
-            const int n = batch_.live - i < W ? batch_.live - i : W;
+            const int n = groupSize(i, batch_.live);
             const unsigned live = (1u << n) - 1u;
             RayHitPacket p;
             F row[8];
@@ -265,7 +267,7 @@ private:
         SlotBuffer& slots = batch_.slots;
         counts_.shadowRays += std::uint64_t(batch_.shadowCount);
         for (int i = 0; i < batch_.shadowCount; i += W) {
-            const int n = batch_.shadowCount - i < W ? batch_.shadowCount - i : W;
+            const int n = groupSize(i, batch_.shadowCount);
             const unsigned live = (1u << n) - 1u;
             RayPacket p;
             F row[8];

@@ -56,13 +56,12 @@ private:
         return F(1.f) / (F(1.f) + ratio * ratio);
     }
 
+    /// `distance` is finite: light from infinitely far is not absorbed at all.
     template <class F>
     static void absorb(const Scene& scene, const UInt<F>& medium, F distance, Spectrum<F>& throughput) {
         if (scene.media.size() <= 1 || none(medium != UInt<F>(0u))) return;
         const Spectrum<F> sigma = Records<F, MediumRecord>(scene.media.data(), medium)(&MediumRecord::absorption);
-        // Vacuum has sigma 0, and 0 times an infinite distance is not a number.
-        const F d = min(distance, F(1e30f));
-        throughput *= Spectrum<F>{exp(-sigma.r * d), exp(-sigma.g * d), exp(-sigma.b * d)};
+        throughput *= Spectrum<F>{exp(-sigma.r * distance), exp(-sigma.g * distance), exp(-sigma.b * distance)};
     }
 
     /// The medium on the side to which w points, at a border of media; else `medium`.

@@ -39,9 +39,7 @@ struct SurfacePoint {
 /// Where a ray that leaves p in the direction w has to start so that it neither meets the surface again nor leaks through.
 template <class F>
 Vec3<F> offsetOrigin(const Vec3<F>& p, const Vec3<F>& error, const Vec3<F>& ng, const Vec3<F>& w) {
-    const F d = dot(abs(ng), error);
-    const Vec3<F> moved = p + flipSign(dot(w, ng) < F(0.f), ng) * d;
-    return moved;
+    return p + flipSign(dot(w, ng) < F(0.f), ng) * dot(abs(ng), error);
 }
 
 namespace detail {
@@ -77,10 +75,10 @@ struct LocalSurface {
 template <class F>
 F roundingInside(const Affine<F>& place, F coordinate) {
     const Vec3<F> rounding = place.pointError({coordinate, coordinate, coordinate}, {F(0.f), F(0.f), F(0.f)});
-    // Times the norm of the inverse matrix, whose rows are the cross products of the columns over the determinant.
-    const Vec3<F> rowX = cross(place.y, place.z), rowY = cross(place.z, place.x), rowZ = cross(place.x, place.y);
+    // Times the norm of the inverse matrix.
+    const Cofactors<F> c = place.cofactors();
     const auto size = [](const Vec3<F>& row) { return abs(row.x) + abs(row.y) + abs(row.z); };
-    const F norm = max(size(rowX), max(size(rowY), size(rowZ))) / abs(dot(place.x, rowX));
+    const F norm = max(size(c.x), max(size(c.y), size(c.z))) / abs(c.determinant);
     return maxComponent(rounding) * norm;
 }
 
@@ -173,16 +171,9 @@ void quadricSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& 
     // `met` is the hit in the space of the shape's group; the quadric's own matrix leads from its object space to that.
     const UInt<F> row = select(isQuadric, shape.first, UInt<F>(0u));
     const Records<F, QuadricRecord> q(g.quadrics.data(), row);
-    const AffineRecord* table = &g.quadrics[0].worldFromObject;
-    constexpr std::uint32_t kStride = sizeof(QuadricRecord) / 4;
-    static_assert(sizeof(QuadricRecord) % 16 == 0);
-    const auto load = [&](std::uint32_t word) {
-        F r[3][4];
-        for (std::uint32_t k = 0; k < 3; ++k) loadRows4(table->m, row * UInt<F>(kStride) + UInt<F>(word + 4 * k), r[k]);
-        return Affine<F>{{r[0][0], r[1][0], r[2][0]}, {r[0][1], r[1][1], r[2][1]}, {r[0][2], r[1][2], r[2][2]},
-                         {r[0][3], r[1][3], r[2][3]}};
-    };
-    const Affine<F> worldFromObject = load(0), objectFromWorld = load(12);
+    const UInt<F> offset = row * UInt<F>(std::uint32_t(sizeof(QuadricRecord) / 4));
+    const Affine<F> worldFromObject = loadAffineAt<F>(g.quadrics[0].worldFromObject.m, offset);
+    const Affine<F> objectFromWorld = loadAffineAt<F>(g.quadrics[0].objectFromWorld.m, offset);
     const QuadricPoint<F> point = quadricPoint(q, objectFromWorld.point(met));
     const Mask<F> flip = shape.has(kShapeFlipNormal);
     s.p = worldFromObject.point(point.p);
@@ -217,13 +208,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     if (any(isMesh)) meshSurface(s, g, shape, hit, isMesh, place, instanced);
     if (!all(isMesh)) {
         Vec3<F> met = origin + direction * hit.t;
-        if (any(instanced)) {
-            // Into the space of the group: solve M x = met by Cramer's rule (the columns' cross products).
-            const Vec3<F> r = met - place.origin;
-            const Vec3<F> cx = cross(place.y, place.z), cy = cross(place.z, place.x), cz = cross(place.x, place.y);
-            const F inverse = F(1.f) / dot(place.x, cx);
-            met = select(instanced, Vec3<F>{dot(r, cx) * inverse, dot(r, cy) * inverse, dot(r, cz) * inverse}, met);
-        }
+        if (any(instanced)) met = select(instanced, place.preimage(met), met);   // into the space of the group
         if (none(isMesh)) {
             quadricSurface(s, g, shape, !isMesh, met);
         } else {

@@ -12,17 +12,36 @@
 
 namespace penumbra {
 
+/// What the inverse of a linear map is made of: the rows of the inverse times the determinant (cross products of the columns).
+template <class F>
+struct Cofactors {
+    Vec3<F> x, y, z;
+    F determinant;
+};
+
 template <class F>
 struct Affine {
     Vec3<F> x, y, z, origin;   ///< the columns
+
+    Cofactors<F> cofactors() const {
+        const Vec3<F> row = cross(y, z);
+        return {row, cross(z, x), cross(x, y), dot(x, row)};
+    }
 
     Vec3<F> point(const Vec3<F>& p) const { return x * p.x + y * p.y + z * p.z + origin; }
     Vec3<F> vector(const Vec3<F>& v) const { return x * v.x + y * v.y + z * v.z; }
     /// By the cofactor matrix (the inverse transpose times the determinant): exact for singular matrices too; not normalised,
     /// and for reflections negated, so that a normal stays on the side of the object that it was on.
     Vec3<F> normal(const Vec3<F>& n) const {
-        const Vec3<F> cx = cross(y, z), cy = cross(z, x), cz = cross(x, y);
-        return flipSign(dot(x, cx) < F(0.f), cx * n.x + cy * n.y + cz * n.z);
+        const Cofactors<F> c = cofactors();
+        return flipSign(c.determinant < F(0.f), c.x * n.x + c.y * n.y + c.z * n.z);
+    }
+    /// The point that point() takes to q (Cramer's rule). REQUIRES: not singular.
+    Vec3<F> preimage(const Vec3<F>& q) const {
+        const Cofactors<F> c = cofactors();
+        const Vec3<F> r = q - origin;
+        const F inverse = F(1.f) / c.determinant;
+        return {dot(r, c.x) * inverse, dot(r, c.y) * inverse, dot(r, c.z) * inverse};
     }
     /// Bound of the rounding error of point(p) when p itself is known to within `error`, per component.
     Vec3<F> pointError(const Vec3<F>& p, const Vec3<F>& error) const {
@@ -39,15 +58,18 @@ struct AffineRecord {
 
 AffineRecord toRecord(const Matrix4& m);
 
+/// The record whose twelve floats begin `offset` floats behind `base`.
 template <class F>
-Affine<F> loadAffine(const AffineRecord* table, const UInt<F>& index) {
-    const float* base = table->m;
-    const UInt<F> offset = index * UInt<F>(12u);
+Affine<F> loadAffineAt(const float* base, const UInt<F>& offset) {
     F r0[4], r1[4], r2[4];
     loadRows4(base, offset, r0);
     loadRows4(base, offset + UInt<F>(4u), r1);
     loadRows4(base, offset + UInt<F>(8u), r2);
     return {{r0[0], r1[0], r2[0]}, {r0[1], r1[1], r2[1]}, {r0[2], r1[2], r2[2]}, {r0[3], r1[3], r2[3]}};
+}
+template <class F>
+Affine<F> loadAffine(const AffineRecord* table, const UInt<F>& index) {
+    return loadAffineAt<F>(table->m, index * UInt<F>(12u));
 }
 
 /// The matrix of a motion at a normalised time. `segments` 0: the matrix at `first` alone.
