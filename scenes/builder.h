@@ -3,6 +3,7 @@
 // Everything a file may name and everything it may get wrong is decided here; nothing of it reaches the hot code. What
 // Penumbra does not have yet is replaced by something sensible, with one warning a kind; what no renderer has is an
 // error.
+// (overrides.h, before: what a command line says against the file in the file's own words.)
 //   builder/context.h           what the parts share: messages with places, colours, paths
 //   builder/settings_*.cpp      film, camera, filter, sampler, integrator (and the command line's overrides)
 //   builder/textures.cpp        textures by name and role
@@ -23,6 +24,7 @@
 
 #include "scenes/scene.h"
 
+#include <array>
 #include <optional>
 
 namespace penumbra {
@@ -31,6 +33,8 @@ namespace penumbra {
 struct BuildOptions {
     int samplesOverride = 0;    ///< samples per pixel (--spp)
     int width = 0, height = 0;  ///< both or none (--resolution); the crop keeps its fraction of the picture
+    std::optional<std::array<float, 4>> cropWindow;  ///< x0 x1 y0 y1, fractions of the picture
+    std::optional<std::array<int, 4>> pixelBounds;   ///< x0 x1 y0 y1, pixels of the picture as it is made
     std::optional<std::uint32_t> seed;
     std::string sampler, integrator;  ///< types; of the file's directive then remain samples per pixel and maxdepth
     IntersectionMode intersection = IntersectionMode::Robust;

@@ -1,6 +1,7 @@
 // penumbra render: the picture, its header, its replay, and how it ends early.
 
 #include "core/image/exr.h"
+#include "core/math/lanes.h"
 #include "tests/run_program.h"
 
 #include <gtest/gtest.h>
@@ -36,6 +37,23 @@ nlohmann::json recipeOf(const ExrFile& file) {
         if (name == "penumbra") return nlohmann::json::parse(std::get<std::string>(value));
     ADD_FAILURE() << "no recipe";
     return {};
+}
+
+/// The pixels of a window of the picture, of all channels, as bits: equal where the same window holds the same.
+std::vector<std::uint32_t> bitsOf(const ExrFile& file, PixelWindow window) {
+    std::vector<std::uint32_t> bits;
+    const PixelWindow& data = file.header.dataWindow;
+    for (std::size_t c = 0; c < file.header.channels.size(); ++c)
+        for (int y = window.y0; y < window.y1; ++y)
+            for (int x = window.x0; x < window.x1; ++x) {
+                const std::size_t at = std::size_t(y - data.y0) * std::size_t(data.width()) + std::size_t(x - data.x0);
+                bits.push_back(file.floats[c].empty() ? file.uints[c][at] : floatBits(file.floats[c][at]));
+            }
+    return bits;
+}
+
+std::array<int, 4> cornersOf(const PixelWindow& w) {
+    return {w.x0, w.y0, w.x1, w.y1};
 }
 
 /// A limit on what may be lost: names of temporary files have ".tmp." in them.
@@ -82,6 +100,78 @@ TEST_F(RenderCommand, TheHeaderRepeatsThePicture) {
     command.insert(command.end(), {"--quiet", "-o", folder.path("again.exr")});
     EXPECT_EQ(runProgram(command).code, 0);
     EXPECT_EQ(readBytes(folder.path("again.exr")), bytes);
+}
+
+TEST_F(RenderCommand, ACropHasTheBitsOfThatPartOfTheWhole) {
+    render("whole.exr", {"--replicates", "2"});
+    const ExrFile whole = readExr(folder.path("whole.exr"));
+    const std::vector<std::pair<std::vector<std::string>, PixelWindow>> crops{
+        {{"--cropwindow", "0.25,0.75,.5,1"}, {8, 12, 24, 24}},
+        {{"--pixelbounds", "13,18,7,8"}, {13, 7, 18, 8}},
+        {{"--pixelbounds", "30,99,0,2"}, {30, 0, 32, 2}},
+        {{"-D", "Film.pixelbounds=13,18,7,8"}, {13, 7, 18, 8}},
+    };
+    for (auto [options, window] : crops) {
+        options.insert(options.end(), {"--replicates", "2"});
+        render("crop.exr", options);
+        const ExrFile crop = readExr(folder.path("crop.exr"));
+        EXPECT_EQ(cornersOf(crop.header.dataWindow), cornersOf(window));
+        EXPECT_EQ(cornersOf(crop.header.displayWindow), (std::array{0, 0, 32, 24}));
+        EXPECT_EQ(bitsOf(crop, window), bitsOf(whole, window));
+        EXPECT_TRUE(contains(recipeOf(crop).at("command"), " " + options[0] + " "));
+        if (options[0] != "-D") {
+            EXPECT_TRUE(contains(recipeOf(crop).at("command"), options[1].substr(0, 4)));
+        }
+    }
+}
+
+TEST_F(RenderCommand, CropsThatLeaveNothingAreRefused) {
+    const auto errorOf = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"render", scene, "-o", folder.path("a.exr")});
+        const ProgramRun run = runProgram(options);
+        EXPECT_EQ(run.code, 64);
+        return run.err;
+    };
+    EXPECT_EQ(errorOf({"--cropwindow", "0.5,0.5,0,1"}), "error: --cropwindow leaves no pixel of the picture of 32x24\n");
+    EXPECT_EQ(errorOf({"--pixelbounds", "40,50,0,1"}), "error: --pixelbounds leaves no pixel of the picture of 32x24\n");
+    EXPECT_EQ(errorOf({"--cropwindow", "0,1.5,0,1"}), "error: --cropwindow: '1.5' is not a number from 0 to 1\n");
+    EXPECT_EQ(errorOf({"--cropwindow", "0,1"}),
+              "error: --cropwindow: '0,1' are 2 values; 4 are needed, with commas between\n");
+    EXPECT_TRUE(contains(errorOf({"--cropwindow", "0,1,0,1", "--pixelbounds", "0,1,0,1"}), "give one of them"));
+}
+
+TEST_F(RenderCommand, OverridesOfTheSceneAreTheSceneWithThatText) {
+    const std::string edited = [&] {
+        std::string text = kSmallScene;
+        text.replace(text.find("fov\" 40"), 7, "fov\" 55");
+        text.replace(text.find("maxdepth\" 4"), 11, "maxdepth\" 2");
+        text.insert(text.find("Sampler"), "PixelFilter \"box\"\n");
+        return folder.file("edited.pbrt", text);
+    }();
+    render("a.exr", {"-D", "Camera.fov=55", "-D", "Integrator.maxdepth=9", "-DIntegrator.maxdepth=2", "-D",
+                     "PixelFilter=box"});
+    EXPECT_EQ(runProgram({"render", edited, "-o", folder.path("b.exr"), "--quiet"}).code, 0);
+    const ExrFile a = readExr(folder.path("a.exr")), b = readExr(folder.path("b.exr"));
+    EXPECT_EQ(bitsOf(a, {0, 0, 32, 24}), bitsOf(b, {0, 0, 32, 24}));
+    EXPECT_TRUE(contains(recipeOf(a).at("command"), "-D Camera.fov=55 -D Integrator.maxdepth=9"));
+    EXPECT_EQ(runProgram({"info", scene, "--json"}).code, 0);
+}
+
+TEST_F(RenderCommand, OverridesThatMeanNothingAreRefused) {
+    const auto errorOf = [&](const std::string& setting) {
+        const ProgramRun run = runProgram({"render", scene, "-o", folder.path("a.exr"), "-D", setting});
+        EXPECT_EQ(run.code, 64) << setting;
+        return run.err;
+    };
+    EXPECT_EQ(errorOf("Camera.fo=30"),
+              "error: -D Camera.fo=30: camera 'perspective' has no parameter 'fo'; did you mean 'fov'?\n");
+    EXPECT_EQ(errorOf("Film.iso=fast"), "error: -D Film.iso=fast: 'fast' is not a number\n");
+    EXPECT_EQ(errorOf("Cammera.fov=30"),
+              "error: -D 'Cammera.fov=30': unknown directive 'Cammera'; did you mean 'Camera'?\n");
+    EXPECT_TRUE(contains(errorOf("Camera.fov"), "expected DIRECTIVE.PARAMETER=VALUE"));
+    const ProgramRun range = runProgram({"render", scene, "-o", folder.path("a.exr"), "-D", "Camera.fov=190"});
+    EXPECT_EQ(range.code, 65);
+    EXPECT_TRUE(contains(range.err, "error: -D Camera.fov=190: fov is 190, outside the allowed range")) << range.err;
 }
 
 TEST_F(RenderCommand, ReplayPrintsWhatThePictureHolds) {

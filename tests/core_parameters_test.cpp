@@ -90,6 +90,43 @@ TEST(CoreParameters, UnusedParametersAreReportedWithTheNearestNameAskedFor) {
     EXPECT_TRUE(unusedOf(set).empty());
 }
 
+/// What the error says that f() ends with, with its exit code before.
+template <class Function>
+std::string usageErrorOf(Function&& f) {
+    try {
+        f();
+    } catch (const ErrorAt& e) {
+        return std::to_string(int(e.kind())) + " " + e.placed(kFiles).what();
+    }
+    return "";
+}
+
+TEST(CoreParameters, OverridesTakeTheTypeThatIsAskedFor) {
+    const SourcePosition where{0, 3, 5};
+    ParameterSet set;
+    set.add(make<float>("float", "iso", {100}, 2));
+    for (const auto& [name, text] : {std::pair{"iso", "2e2"}, {"count", "-7"}, {"on", "true"}, {"window", "0,.5 0,1"},
+                                     {"name", "a, b"}, {"bad", "2x"}, {"whole", "1.5"}, {"list", "1,"}, {"far", "inf"}})
+        set.override(name, text, where);
+    EXPECT_EQ(set.number("iso", 0), 200) << "in the place of the file's";
+    EXPECT_EQ(set.integer("count", 0), -7);
+    EXPECT_TRUE(set.boolean("on", false));
+    EXPECT_EQ(set.numbers("float", "window"), (std::vector<float>{0, 0.5f, 0, 1}));
+    EXPECT_EQ(set.text("name", ""), "a, b");
+    EXPECT_EQ(usageErrorOf([&] { set.number("bad", 0); }), "64 s.pbrt:3:5: '2x' is not a number");
+    EXPECT_EQ(usageErrorOf([&] { set.integer("whole", 0); }), "64 s.pbrt:3:5: '1.5' is not a whole number");
+    EXPECT_EQ(usageErrorOf([&] { set.numbers("float", "list"); }), "64 s.pbrt:3:5: '' is not a number");
+    EXPECT_EQ(usageErrorOf([&] { set.number("far", 0); }), "64 s.pbrt:3:5: 'inf' is not a number");
+}
+
+TEST(CoreParameters, AnOverrideThatNothingAsksForIsAnError) {
+    ParameterSet set;
+    set.override("isoo", "200", {0, 3, 5});
+    set.number("iso", 100);
+    EXPECT_EQ(usageErrorOf([&] { unusedOf(set); }),
+              "64 s.pbrt:3:5: shape 'sphere' has no parameter 'isoo'; did you mean 'iso'?");
+}
+
 TEST(CoreParameters, UnusedIsAnErrorWhereStrict) {
     ParameterSet set;
     set.add(make<float>("float", "radios", {1}));

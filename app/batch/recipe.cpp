@@ -37,8 +37,12 @@ std::string repeatCommand(const RenderOptions& options) {
     const BuildOptions& b = options.build;
     std::string command = "penumbra render " + shellQuoted(options.scene);
     const auto add = [&](const char* option, const auto& value) { command += fmt::format(" {} {}", option, value); };
+    for (const std::string& setting : options.overrides)
+        add("-D", shellQuoted(setting));
     if (b.samplesOverride > 0) add("--spp", b.samplesOverride);
     if (b.width > 0) add("--resolution", fmt::format("{}x{}", b.width, b.height));
+    if (b.cropWindow) add("--cropwindow", fmt::format("{}", fmt::join(*b.cropWindow, ",")));
+    if (b.pixelBounds) add("--pixelbounds", fmt::format("{}", fmt::join(*b.pixelBounds, ",")));
     if (b.seed) add("--seed", *b.seed);
     if (!b.sampler.empty()) add("--sampler", b.sampler);
     if (!b.integrator.empty()) add("--integrator", b.integrator);

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "integrators/registry.h"
+#include "scenes/overrides.h"
 #include "scenes/readers.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ RenderJob::RenderJob(SceneDescription description, const RenderOptions& options,
 
 void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
     const auto start = std::chrono::steady_clock::now();
+    applyOverrides(description, options_.overrides);
     inputs_ = findSceneInputs(description);
     scene_ = buildScene(std::move(description), options_.build, warnings);
     if (options_.replicates > scene_.samplesPerPixel)

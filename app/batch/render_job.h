@@ -24,6 +24,7 @@ namespace penumbra {
 
 struct RenderOptions {
     std::string scene;  ///< path; "-": standard input
+    std::vector<std::string> overrides;  ///< as scenes/overrides.h takes them
     BuildOptions build;
     int replicates = 1;  ///< planes of the film
     int tileSize = 16;   ///< pixels; changes no bit

@@ -22,7 +22,7 @@ public:
     }
     void visit(const ParameterSet& parameters) {
         for (const Parameter& p : parameters.all())
-            if (p.isText() && (p.type == "string" || p.type == "spectrum"))
+            if (p.isText() && (p.type == "string" || p.type == "spectrum" || p.type.empty()))
                 for (const std::string& name : p.strings())
                     visitName(name);
     }
@@ -68,7 +68,9 @@ std::string digestOrEmpty(const std::string& path) {
 }  // namespace
 
 SceneInputs findSceneInputs(const SceneDescription& scene) {
-    SceneInputs inputs{scene.files, assetsOf(scene), ""};
+    // Behind the files, which alone have digests, stand overrides.
+    const auto firstOverride = scene.files.begin() + std::ptrdiff_t(scene.digests.size());
+    SceneInputs inputs{{scene.files.begin(), firstOverride}, assetsOf(scene), ""};
     std::vector<std::string> digests(inputs.assets.size());
     parallelFor(digests.size(), [&](std::size_t i) { digests[i] = digestOrEmpty(inputs.assets[i]); });
     Sha256 all;

@@ -148,6 +148,11 @@ void Arguments::text(const std::string& names, const std::string& valueName, con
         ->group(group_);
 }
 
+void Arguments::texts(const std::string& names, const std::string& valueName, const std::string& help,
+                      std::vector<std::string>& values) {
+    app_.add_option(names, values, help)->type_name(valueName)->type_size(1)->allow_extra_args(false)->group(group_);
+}
+
 void Arguments::optionalText(const std::string& name, const std::string& otherwise, const std::string& valueName,
                              std::string& value, const std::string& help) {
     // A flag, because an option with an optional value would swallow the word behind it.
@@ -167,13 +172,29 @@ void Arguments::choice(const std::string& names, std::vector<std::string> known,
 
 void Arguments::real(const std::string& names, const std::string& valueName, double least, double most, float& value,
                      const std::string& help) {
-    text(names, valueName, help, [=, &value](const std::string& t) {
-        double number = 0;
-        const auto [end, error] = std::from_chars(t.data(), t.data() + t.size(), number);
-        if (error != std::errc() || end != t.data() + t.size() || !(number >= least && number <= most))
-            refuse(names, fmt::format("{} is not a number from {} to {}", quote(t), least, most));
-        value = float(number);
-    });
+    text(names, valueName, help,
+         [=, &value](const std::string& t) { value = float(parseReal(names, t, least, most)); });
+}
+
+double Arguments::parseReal(const std::string& names, const std::string& text, double least, double most) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !(number >= least && number <= most))
+        refuse(names, fmt::format("{} is not a number from {} to {}", quote(text), least, most));
+    return number;
+}
+
+std::vector<std::string> Arguments::split(const std::string& names, const std::string& text, std::size_t count) {
+    std::vector<std::string> words{""};
+    for (const char c : text)
+        if (c == ',')
+            words.emplace_back();
+        else
+            words.back() += c;
+    if (words.size() != count)
+        refuse(names,
+               fmt::format("{} are {} values; {} are needed, with commas between", quote(text), words.size(), count));
+    return words;
 }
 
 std::int64_t Arguments::parseWhole(const std::string& names, const std::string& text, WholeRange range) {

@@ -41,6 +41,9 @@ public:
     void flag(const std::string& names, bool& value, const std::string& help);
     /// `valueName` stands for the value in the help.
     void text(const std::string& names, const std::string& valueName, const std::string& help, Setter set);
+    /// One that may be given several times; all values count.
+    void texts(const std::string& names, const std::string& valueName, const std::string& help,
+               std::vector<std::string>& values);
     /// An option that may stand alone, or with a value behind a '='; alone, the value is `otherwise`.
     void optionalText(const std::string& name, const std::string& otherwise, const std::string& valueName,
                       std::string& value, const std::string& help);
@@ -57,6 +60,10 @@ public:
 
     /// `text` is a whole number in the range, else an error that names the option.
     static std::int64_t parseWhole(const std::string& names, const std::string& text, WholeRange range);
+    /// A number in the range, likewise.
+    static double parseReal(const std::string& names, const std::string& text, double least, double most);
+    /// The words between commas, as many as are asked for.
+    static std::vector<std::string> split(const std::string& names, const std::string& text, std::size_t count);
     /// Two whole numbers with the separator between: "640x480".
     static std::pair<int, int> parsePair(const std::string& names, const std::string& text, char separator,
                                          WholeRange range);

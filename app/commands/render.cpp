@@ -34,6 +34,7 @@ constexpr char kExamples[] =
     "Examples:\n"
     "  penumbra render cornell.pbrt -o cornell.exr --spp 256\n"
     "  penumbra render cornell.pbrt -o quick.png --spp 16 --resolution 320x240 -t 4\n"
+    "  penumbra render cornell.pbrt -o part.exr --cropwindow 0,0.5,0,0.5 -D Film.iso=200\n"
     "  penumbra render cornell.pbrt --pixel 17,42 --sample 3\n";
 
 constexpr int kMostSamples = 1 << 30, kMostDepth = 100000, kMostReplicates = 4096;
@@ -67,11 +68,29 @@ void setProgress(RenderRequest& request, const std::string& text) {
         throw Error(ErrorKind::Usage, fmt::format("--progress: descriptor {} is not open", request.progressDescriptor));
 }
 
+std::array<float, 4> parseWindow(const std::string& text) {
+    std::array<float, 4> window{};
+    const std::vector<std::string> words = Arguments::split("--cropwindow", text, window.size());
+    for (std::size_t i = 0; i < window.size(); ++i)
+        window[i] = float(Arguments::parseReal("--cropwindow", words[i], 0, 1));
+    return window;
+}
+
+std::array<int, 4> parseBounds(const std::string& text) {
+    std::array<int, 4> bounds{};
+    const std::vector<std::string> words = Arguments::split("--pixelbounds", text, bounds.size());
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+        bounds[i] = int(Arguments::parseWhole("--pixelbounds", words[i], kPixelNumbers));
+    return bounds;
+}
+
 void checkRequest(const RenderRequest& request) {
     if (request.options.scene.empty())
         throw Error(ErrorKind::Usage, "a scene is missing: penumbra render SCENE -o PICTURE");
     if (request.pixel.has_value() != request.sample.has_value())
         throw Error(ErrorKind::Usage, "--pixel and --sample belong together: they name the sample to replay");
+    if (request.options.build.cropWindow && request.options.build.pixelBounds)
+        throw Error(ErrorKind::Usage, "--cropwindow and --pixelbounds say the same thing: give one of them");
     if (!request.statistics.empty() && request.statistics != "text" && request.statistics != "json")
         throw Error(ErrorKind::Usage, "--stats: unknown form " + quote(request.statistics) + "; known: text, json");
 }
@@ -212,6 +231,15 @@ void addSampling(Arguments& arguments, RenderRequest& r) {
                    [&b](const std::string& t) {
                        std::tie(b.width, b.height) = Arguments::parsePair("--resolution", t, 'x', kSides);
                    });
+    arguments.text("--cropwindow", "X0,X1,Y0,Y1",
+                   "renders a part of the picture, in fractions of it: the same bits as that part of the whole",
+                   [&b](const std::string& t) { b.cropWindow = parseWindow(t); });
+    arguments.text("--pixelbounds", "X0,X1,Y0,Y1", "the same in pixels, X1 and Y1 not included",
+                   [&b](const std::string& t) { b.pixelBounds = parseBounds(t); });
+    arguments.texts("-D", "KEY=VALUE",
+                    "sets what the scene file says before WorldBegin: a parameter (Film.iso=200, Camera.fov=30, "
+                    "Integrator.maxdepth=3) or a type (Camera=orthographic); may be given several times",
+                    r.options.overrides);
     arguments.whole("--seed", "N", {0, std::numeric_limits<std::uint32_t>::max()}, b.seed,
                     "seed of the sampler, from 0 to 4294967295");
     arguments.choice("--sampler", pluginNames(SamplerTypes{}), "the sampler",

@@ -1,8 +1,52 @@
 #include "core/base/parameters.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 namespace penumbra {
+namespace {
+
+/// The whole word as a number; false where it is none.
+template <class Number>
+bool parseNumber(std::string_view word, Number& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc() && end == word.data() + word.size();
+}
+
+template <class Number>
+std::vector<Number> parseNumbers(const std::string& text, SourcePosition where) {
+    std::vector<Number> numbers;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find_first_of(", ", begin), text.size());
+        const std::string word = text.substr(begin, end - begin);
+        Number n{};
+        if (!parseNumber(word, n) || !std::isfinite(double(n)))
+            throw ErrorAt(where,
+                          quote(word) + (std::is_integral_v<Number> ? " is not a whole number" : " is not a number"),
+                          ErrorKind::Usage);
+        numbers.push_back(n);
+        begin = end + 1;
+    }
+    return numbers;
+}
+
+/// Gives an override the type that is asked for.
+void convert(Parameter& p, std::string_view type) {
+    const std::string text = p.strings().front();
+    if (type == "bool") {
+        if (text != "true" && text != "false")
+            throw ErrorAt(p.where, quote(text) + " is neither true nor false", ErrorKind::Usage);
+        p.values = std::vector<std::uint8_t>{text == "true"};
+    } else if (type == "integer") {
+        p.values = parseNumbers<std::int32_t>(text, p.where);
+    } else if (type != "string" && type != "texture") {
+        p.values = parseNumbers<float>(text, p.where);
+    }
+    p.type = type;
+}
+
+}  // namespace
 
 std::span<const std::string> parameterTypes() {
     static const std::vector<std::string> types{"float",     "integer",  "bool",    "string", "point2",
@@ -26,11 +70,17 @@ void ParameterSet::noteAsked(std::string_view type, std::string_view name) const
 const Parameter* ParameterSet::find(std::string_view type, std::string_view name) const {
     noteAsked(type, name);
     for (auto p = list_.rbegin(); p != list_.rend(); ++p)
-        if (p->name == name && p->type == type) {
+        if (p->name == name && (p->type == type || p->type.empty())) {
+            if (p->type.empty()) convert(*p, type);
             p->used = true;
             return &*p;
         }
     return nullptr;
+}
+
+void ParameterSet::override(const std::string& name, const std::string& text, SourcePosition where) {
+    std::erase_if(list_, [&](const Parameter& p) { return p.name == name; });
+    list_.push_back({.type = "", .name = name, .where = where, .values = std::vector{text}, .colorSpace = ""});
 }
 
 const Parameter* ParameterSet::findAny(std::string_view name) const {
@@ -80,24 +130,32 @@ const std::vector<std::int32_t>& ParameterSet::integers(std::string_view name) c
     return p ? p->ints() : none;
 }
 
-std::string ParameterSet::unusedMessage(const Parameter& p, std::string_view object) const {
-    std::string types;
+std::vector<std::string> ParameterSet::namesAsked() const {
     std::vector<std::string> names;
-    for (const Asked& a : asked_) {
-        if (a.name == p.name && !a.type.empty()) types += (types.empty() ? "" : " or ") + a.type;
-        if (a.name != p.name) names.push_back(a.name);
-    }
+    for (const Asked& a : asked_)
+        names.push_back(a.name);
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+std::string ParameterSet::unusedMessage(const Parameter& p, std::string_view object) const {
+    std::string types;
+    for (const Asked& a : asked_)
+        if (a.name == p.name && !a.type.empty()) types += (types.empty() ? "" : " or ") + a.type;
     const std::string start = "parameter " + quote(p.type + " " + p.name) + " of " + std::string(object);
     if (!types.empty()) return start + " is ignored: it has to be of type " + types;
-    return start + " is unknown" + suggestion(p.name, names);
+    return start + " is unknown" + suggestion(p.name, namesAsked());
 }
 
 void ParameterSet::warnUnused(std::span<const std::string> files, std::string_view object, Warnings& warnings) const {
     for (const Parameter& p : list_) {
-        const bool shadowed = wasAsked(p.type, p.name);  // a later twin was found in its place
-        if (!p.used && !p.inherited && !shadowed)
+        if (p.used || p.inherited) continue;
+        if (p.type.empty())
+            throw ErrorAt(p.where,
+                          std::string(object) + " has no parameter " + quote(p.name) + suggestion(p.name, namesAsked()),
+                          ErrorKind::Usage);
+        if (!wasAsked(p.type, p.name))  // else a later twin was found in its place
             warnings.add(formatPosition(files, p.where) + ": " + unusedMessage(p, object));
     }
 }

@@ -3,6 +3,7 @@
 // Types are the scene format's own words (float, integer, bool, string, point2, vector2, point3, vector3, normal, rgb,
 // blackbody, spectrum, texture). A look-up asks for an exact type and marks the parameter used; whatever no look-up has
 // asked for can be reported afterwards ("unknown parameter 'radios'; did you mean 'radius'?").
+// A value from the command line has no type of its own: it takes the one that the first look-up asks for.
 //
 // Errors: a look-up of one value that finds several throws ErrorAt with the parameter's place.
 // Thread safety: look-ups write marks, so one set belongs to one thread.
@@ -19,7 +20,7 @@
 namespace penumbra {
 
 struct Parameter {
-    std::string type, name;
+    std::string type, name;  ///< no type: an override that nothing has asked for yet
     SourcePosition where;
     /// float, point*, vector*, normal, rgb, blackbody, numeric spectrum: floats. integer: ints. string, texture, named
     /// or file spectrum: strings. bool: bools (as bytes).
@@ -44,6 +45,8 @@ std::span<const std::string> parameterTypes();
 class ParameterSet {
 public:
     void add(Parameter p) { list_.push_back(std::move(p)); }
+    /// A value from the command line, in the place of all parameters of that name. Numbers are separated by commas.
+    void override(const std::string& name, const std::string& text, SourcePosition where);
     const std::vector<Parameter>& all() const { return list_; }
     std::vector<Parameter>& all() { return list_; }
 
@@ -62,7 +65,7 @@ public:
 
     /// Warns of every parameter that no look-up asked for: of one asked for as another type with that type, of any
     /// other with the nearest name that was asked for. `object` is whose they are, as a message says it ("shape
-    /// 'sphere'").
+    /// 'sphere'"). An override that no look-up asked for is ErrorAt(Usage).
     void warnUnused(std::span<const std::string> files, std::string_view object, Warnings& warnings) const;
     /// Marks all parameters used (for objects that are substituted whole).
     void markAllUsed() const;
@@ -75,9 +78,10 @@ private:
     const Parameter* findSingle(std::string_view type, std::string_view name) const;
     bool wasAsked(std::string_view type, std::string_view name) const;
     void noteAsked(std::string_view type, std::string_view name) const;
+    std::vector<std::string> namesAsked() const;
     std::string unusedMessage(const Parameter& p, std::string_view object) const;
 
-    std::vector<Parameter> list_;
+    mutable std::vector<Parameter> list_;  ///< mutable: marks, and the types of overrides
     mutable std::vector<Asked> asked_;
 };
 

@@ -23,7 +23,7 @@ _penumbra() {
     fi
     if [[ $word == -* ]]; then
         local options
-        options=$("$program" "$command" --help 2>/dev/null | sed -n 's/^  \(-[a-z], \)\{0,1\}\(--[a-z-]*\).*/\2/p')
+        options=$("$program" "$command" --help 2>/dev/null | sed -n 's/^  \(-[a-z], \)\{0,1\}\(-[-a-zA-Z]*\).*/\2/p')
         mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
     fi
 }

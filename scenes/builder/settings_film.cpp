@@ -45,6 +45,23 @@ CropWindow clipped(CropWindow c, Resolution r) {
             std::clamp(c.y1, 0, r.height)};
 }
 
+/// The command line's crop.
+CropWindow cropOf(const BuildOptions& options, Resolution r) {
+    CropWindow crop;
+    if (options.cropWindow) {
+        const auto& v = *options.cropWindow;
+        crop = clipped(cropOf(v[0], v[1], v[2], v[3], r), r);
+    } else {
+        const auto& v = *options.pixelBounds;
+        crop = clipped({v[0], v[2], v[1], v[3]}, r);
+    }
+    if (crop.width() <= 0 || crop.height() <= 0)
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{} leaves no pixel of the picture of {}x{}",
+                                options.cropWindow ? "--cropwindow" : "--pixelbounds", r.width, r.height));
+    return crop;
+}
+
 /// `asked`: the scene's resolution; `made`: the one to render at.
 CropWindow readCrop(const ParameterSet& film, Resolution asked, Resolution made, const BuildContext& context) {
     const Parameter* window = film.find("float", "cropwindow");
@@ -110,6 +127,7 @@ FilmSettings readFilm(const FilmEntity& film, Shutter shutter, const BuildOption
     settings.width = made.width;
     settings.height = made.height;
     settings.crop = readCrop(parameters, asked, made, context);
+    if (options.cropWindow || options.pixelBounds) settings.crop = cropOf(options, made);
     checkSize(made, settings.crop, film.where, context);
     settings.fileName = parameters.text("filename", settings.fileName);
     settings.colorSpace = context.filmColorSpace().name;
