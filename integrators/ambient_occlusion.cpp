@@ -41,7 +41,7 @@ constexpr ParameterInfo kParameters[] = {
 }  // namespace
 
 const PluginInfo AmbientOcclusionIntegrator::kInfo{"ambientocclusion", "openness of the hemisphere over each point", kParameters};
-std::unique_ptr<Integrator> AmbientOcclusionIntegrator::make(const IntegratorSettings& s) {
+std::unique_ptr<Integrator> AmbientOcclusionIntegrator::make(const IntegratorSettings& s, const Scene&) {
     return std::make_unique<ShaderIntegrator<AmbientOcclusionShader>>(s);
 }
 

@@ -180,7 +180,7 @@ private:
         for (float* v : {s.r + at, s.g + at, s.b + at}) store(v, F(0.f));
         store(s.covered + at, UInt<F>(0u));
         const PathRay<F> first{ray.origin, ray.direction, Spectrum<F>::constant(F(1.f)), F(0.f), F(1.f), ray.coneWidth, slot, UInt<F>(0u),
-                               UInt<F>(scene_.cameraMedium)};
+                               UInt<F>(scene_.cameraMedium), F(0.f)};
         const Mask<F> sound = isSound(ray.origin, ray.direction);
         const unsigned asked = (1u << n) - 1u, keep = bits(sound) & asked;
         breakPaths<F>(s, slot, asked & ~keep);

@@ -24,7 +24,7 @@ public:
 }  // namespace
 
 const PluginInfo NormalsIntegrator::kInfo{"normals", "shading normals as colours", {}};
-std::unique_ptr<Integrator> NormalsIntegrator::make(const IntegratorSettings& s) {
+std::unique_ptr<Integrator> NormalsIntegrator::make(const IntegratorSettings& s, const Scene&) {
     return std::make_unique<ShaderIntegrator<NormalsShader>>(s);
 }
 

@@ -1,5 +1,6 @@
 #include "integrators/path.h"
 
+#include "integrators/pilot.h"
 #include "integrators/registry.h"
 #include "integrators/shader_integrator.h"
 
@@ -15,14 +16,20 @@ constexpr ParameterInfo kParameters[] = {
 
 const PluginInfo PathIntegrator::kInfo{"path", "path tracing with next-event estimation and multiple importance sampling (default)",
                                        kParameters};
-std::unique_ptr<Integrator> PathIntegrator::make(const IntegratorSettings& s) { return std::make_unique<ShaderIntegrator<PathShader>>(s); }
+std::unique_ptr<Integrator> PathIntegrator::make(const IntegratorSettings& s, const Scene& scene) {
+    IntegratorSettings pilot = s;
+    pilot.roulette = RouletteRule::Off;
+    pilot.maxDepth = std::min(s.maxDepth, 2);
+    const float typical = typicalRadiance(scene, ShaderIntegrator<PathShader>(pilot, 0.f));
+    return std::make_unique<ShaderIntegrator<PathShader>>(s, typical);
+}
 
 const PluginInfo DirectIntegrator::kInfo{"direct", "emission and light that was scattered once: path with maxdepth 1",
                                          std::span(kParameters).last(1)};
-std::unique_ptr<Integrator> DirectIntegrator::make(const IntegratorSettings& s) {
+std::unique_ptr<Integrator> DirectIntegrator::make(const IntegratorSettings& s, const Scene& scene) {
     IntegratorSettings once = s;
     once.maxDepth = s.maxDepth < 1 ? s.maxDepth : 1;
-    return PathIntegrator::make(once);
+    return PathIntegrator::make(once, scene);
 }
 
 }  // namespace penumbra

@@ -11,8 +11,12 @@ namespace penumbra {
 
 class PathShader {
 public:
-    explicit PathShader(const IntegratorSettings& s)
-        : maxDepth_(s.maxDepth > 0 ? std::uint32_t(s.maxDepth) : 0u), strategy_(s.strategy), roulette_(s.roulette) {}
+    /// `typical`: radiance of the picture (pilot.h), for the roulette Late; 0 where it is not known.
+    PathShader(const IntegratorSettings& s, float typical)
+        : maxDepth_(s.maxDepth > 0 ? std::uint32_t(s.maxDepth) : 0u),
+          strategy_(s.strategy),
+          roulette_(s.roulette),
+          perTypical_(typical > 0.f ? 1.f / typical : 0.f) {}
 
     template <class F, class M>
     void shade(Step<F>& step, RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
@@ -87,7 +91,8 @@ private:
         const Mask<F> tired = Mask<F>(step.vertex > maxDepth_ + kMostPassThroughs);
         step.go(g,
                 {offsetOrigin(at.p, at.error, at.ng, g.direction), g.direction, g.throughput, F(0.f), g.etaScale,
-                 g.coneWidth + coneSpread<F>(step.scene) * hit.t, g.slot, g.depth, mediumBehind(at, g.direction, g.medium)},
+                 g.coneWidth + coneSpread<F>(step.scene) * hit.t, g.slot, g.depth, mediumBehind(at, g.direction, g.medium),
+                 g.firstLight},
                 !tired);
     }
     static constexpr std::uint32_t kMostPassThroughs = 10000;
@@ -117,9 +122,12 @@ private:
         const Vec3<F> wo = at.frame.toLocal(-g.direction);
 
         const auto numbers = scene.sampler.at<F>(g.address, step.vertex);
+        // At the first vertex there is nothing yet but emission.
+        F gathered(0.f);
+        if (roulette_ == RouletteRule::Late && step.vertex > 1) gathered = brightness<F>(step.batch.slots, g.slot);
         if (!scene.lightSampler.empty()) {
             const Mask<F> lit = goesOn & !bsdf.smoothOnly();
-            if (any(lit)) sampleLights(step, g, at, bsdf, wo, numbers, lit);
+            if (any(lit)) sampleLights(step, g, at, bsdf, wo, numbers, gathered, lit);
         }
 
         F uLobe(0.f);
@@ -136,13 +144,14 @@ private:
         next.origin = offsetOrigin(at.p, at.error, at.ng, next.direction);
         next.medium = mediumOf(at, g, next.direction);
         Mask<F> survives = goesOn & s.valid & !isBlack(next.throughput);
+        next.firstLight = select(g.depth < UInt<F>(2u), gathered, g.firstLight);
         if (roulette_ != RouletteRule::Off) survives = survives & playRoulette(numbers, next);
         step.go(g, next, survives);
     }
 
     template <class F, class Bsdf>
     void sampleLights(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at, const Bsdf& bsdf, const Vec3<F>& wo,
-                      const Sampler::Numbers<F>& numbers, const Mask<F>& lit) const {
+                      const Sampler::Numbers<F>& numbers, F gathered, const Mask<F>& lit) const {
         const Scene& scene = step.scene;
         UInt<F> id;
         F pick;
@@ -163,6 +172,7 @@ private:
         const Mask<F> infinite = light.distance == F(kInfinity);
         absorb(scene, mediumOf(at, g, light.wi), select(infinite, F(0.f), light.distance), value);
         wanted = wanted & !isBlack(value);
+        if (any(gathered > F(0.f))) wanted = wanted & playShadowRoulette(numbers, gathered, value);
         // The light's own surface must not shadow its points: stop short by what rounding may have moved them.
         const F slack = light.distance * F(0x1p-16f) + maxComponent(abs(at.p)) * F(0x1p-20f);
         const F far = select(infinite, light.distance, light.distance - slack);
@@ -170,24 +180,52 @@ private:
         step.shadow(g, offsetOrigin(at.p, at.error, at.ng, light.wi), light.wi, far, value, wanted);
     }
 
-    /// Kills lanes at random in proportion to what their paths still carry; true where the path survives. Late: the square
-    /// root of the throughput, from the fourth scattering event on. Earlier or harsher rules trace fewer rays but lose more
-    /// to variance than they gain (docs/DESIGN.md has the figures).
+    /// The brightest channel of what each path has gathered, relative to the picture's typical radiance.
+    template <class F>
+    F brightness(const SlotBuffer& slots, const UInt<F>& slot) const {
+        const Spectrum<F> L{gather(slots.r, slot), gather(slots.g, slot), gather(slots.b, slot)};
+        return max(maxComponent(L) * F(perTypical_), F(0.f));
+    }
+
+    /// Kills lanes at random where little is to be expected of them; true where the path survives. Early: what pbrt does, in
+    /// proportion to the throughput. Late: from the third scattering on, with the root of
+    ///   kFaint throughput / (kDark + what the first hit sent to the camera, relative to the typical radiance),
+    /// so paths live long where the pixel is dark, which is where indirect light decides the relative error, and shorter where
+    /// it is bright. (Rath et al., EARS, SIGGRAPH 2022, derive that rule for learned estimates of both.) docs/DESIGN.md has
+    /// figures.
     template <class F>
     Mask<F> playRoulette(const Sampler::Numbers<F>& numbers, PathRay<F>& next) const {
+        constexpr float kFaint = 5.f, kDark = 1.5f;
         const bool late = roulette_ == RouletteRule::Late;
-        const Mask<F> plays = !(next.depth < UInt<F>(late ? 4u : 2u));
+        const Mask<F> plays = !(next.depth < UInt<F>(late ? 3u : 2u));
         if (none(plays)) return Mask<F>(true);
         const F carried = max(maxComponent(next.throughput) * next.etaScale, F(0.f));
-        const F survival = late ? min(sqrt(carried), F(0.95f)) : min(carried, F(1.f));
+        F survival = min(carried, F(1.f));
+        if (late) {
+            // Light that is caught without loss must come to an end, too.
+            const F most = select(next.depth < UInt<F>(16u), F(1.f), F(0.95f));
+            survival = min(sqrt(F(kFaint) * carried / (F(kDark) + next.firstLight)), most);
+        }
         const Mask<F> lives = (numbers.get1(Dim::Roulette) < survival) | !plays;
         next.throughput = select(plays & lives, next.throughput * (F(1.f) / survival), next.throughput);
+        return lives;
+    }
+
+    /// Late only: a shadow ray whose light would add less than a quarter to what the path has gathered is traced in proportion.
+    template <class F>
+    Mask<F> playShadowRoulette(const Sampler::Numbers<F>& numbers, F gathered, Spectrum<F>& value) const {
+        const F chance = F(4.f * perTypical_) * maxComponent(value) / max(gathered, F(1e-20f));
+        const Mask<F> plays = (chance < F(1.f)) & (gathered > F(0.f));
+        if (none(plays)) return Mask<F>(true);
+        const Mask<F> lives = (numbers.get1(Dim::ShadowRoulette) < chance) | !plays;
+        value = select(plays & lives, value * (F(1.f) / chance), value);
         return lives;
     }
 
     std::uint32_t maxDepth_;
     Strategy strategy_;
     RouletteRule roulette_;
+    float perTypical_;   ///< 1 / typical radiance, or 0
 };
 
 }  // namespace penumbra

@@ -20,7 +20,7 @@ inline constexpr int kBatchCapacity = kMaxBatch + 2 * kPacketWidth;
 /// Records in rows, so that a group gathers them by row loads and a transpose (lanes.h), which beats a gather for each field.
 struct RayBuffer {
     static constexpr std::uint32_t kStride = 16;
-    /// origin, cone width, direction, slot | throughput, bsdf pdf, eta scale, depth, medium
+    /// origin, cone width, direction, slot | throughput, bsdf pdf, eta scale, depth, medium, first light
     alignas(64) float rows[kBatchCapacity][kStride];
 };
 struct HitBuffer {
@@ -73,6 +73,7 @@ struct PathRay {
     F coneWidth;                ///< of the ray's cone at its origin
     UInt<F> slot, depth;        ///< depth: scattering events so far
     UInt<F> medium;
+    F firstLight;               ///< brightness of what the first hit sent to the camera, for roulette
 
     void load(const RayBuffer& buffer, const UInt<F>& at) {
         F a[8], b[8];
@@ -87,11 +88,12 @@ struct PathRay {
         etaScale = b[4];
         depth = floatBits(b[5]);
         medium = floatBits(b[6]);
+        firstLight = b[7];
     }
     /// The lanes of `keep`, packed from row `at` on.
     void store(RayBuffer& buffer, int at, unsigned keep) const {
         const F a[8] = {origin.x, origin.y, origin.z, coneWidth, direction.x, direction.y, direction.z, floatFromBits(slot)};
-        const F b[8] = {throughput.r, throughput.g, throughput.b, bsdfPdf, etaScale, floatFromBits(depth), floatFromBits(medium), F(0.f)};
+        const F b[8] = {throughput.r, throughput.g, throughput.b, bsdfPdf, etaScale, floatFromBits(depth), floatFromBits(medium), firstLight};
         storeRows8(buffer.rows[at], RayBuffer::kStride, a, keep);
         storeRows8(buffer.rows[at] + 8, RayBuffer::kStride, b, keep);
     }

@@ -4,10 +4,11 @@
 
 namespace penumbra {
 
-std::unique_ptr<Integrator> makeIntegrator(const IntegratorSettings& settings) {
+std::unique_ptr<Integrator> makeIntegrator(const Scene& scene) {
+    const IntegratorSettings& settings = scene.integrator;
     std::unique_ptr<Integrator> made;
     forEachType(IntegratorTypes{}, [&]<class T>() {
-        if (T::kInfo.name == settings.name) made = T::make(settings);
+        if (T::kInfo.name == settings.name) made = T::make(settings, scene);
     });
     if (!made)
         throw Error(ErrorKind::Usage, "unknown integrator '" + settings.name + "'" + suggestion(settings.name, pluginNames(IntegratorTypes{})));

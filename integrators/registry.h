@@ -10,24 +10,24 @@ namespace penumbra {
 /// alone, so that each is compiled once.
 struct PathIntegrator {
     static const PluginInfo kInfo;
-    static std::unique_ptr<Integrator> make(const IntegratorSettings&);
+    static std::unique_ptr<Integrator> make(const IntegratorSettings&, const Scene&);
 };
 struct DirectIntegrator {
     static const PluginInfo kInfo;
-    static std::unique_ptr<Integrator> make(const IntegratorSettings&);
+    static std::unique_ptr<Integrator> make(const IntegratorSettings&, const Scene&);
 };
 struct AmbientOcclusionIntegrator {
     static const PluginInfo kInfo;
-    static std::unique_ptr<Integrator> make(const IntegratorSettings&);
+    static std::unique_ptr<Integrator> make(const IntegratorSettings&, const Scene&);
 };
 struct NormalsIntegrator {
     static const PluginInfo kInfo;
-    static std::unique_ptr<Integrator> make(const IntegratorSettings&);
+    static std::unique_ptr<Integrator> make(const IntegratorSettings&, const Scene&);
 };
 
 using IntegratorTypes = TypeList<PathIntegrator, DirectIntegrator, AmbientOcclusionIntegrator, NormalsIntegrator>;
 
-/// The integrator that settings.name says; Error(Usage) naming the nearest where there is none.
-std::unique_ptr<Integrator> makeIntegrator(const IntegratorSettings& settings);
+/// The integrator that the scene's settings name, ready for that scene; Error(Usage) naming the nearest where there is none.
+std::unique_ptr<Integrator> makeIntegrator(const Scene& scene);
 
 }  // namespace penumbra

@@ -9,7 +9,9 @@ namespace penumbra {
 template <class Shader>
 class ShaderIntegrator final : public Integrator {
 public:
-    explicit ShaderIntegrator(const IntegratorSettings& settings) : shader_(settings) {}
+    /// The arguments go to the shader.
+    template <class... Args>
+    explicit ShaderIntegrator(const Args&... args) : shader_(args...) {}
 
     void render(const Scene& scene, const Tile& tile, SampleRange samples, const RenderControls& controls, Film& film,
                 RenderCounts& counts) const noexcept override {

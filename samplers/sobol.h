@@ -58,6 +58,7 @@ private:
             case Dim::Lobe: return 4;
             case Dim::LightPick: return 5;
             case Dim::Roulette: return 6;
+            case Dim::ShadowRoulette: return 7;
         }
         return 0;
     }

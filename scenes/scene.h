@@ -36,7 +36,7 @@ struct FilmSettings {
 };
 
 enum class RouletteRule {
-    Late,   ///< our own: from the fourth scattering on, survival with the square root of the throughput, at most 0.95
+    Late,   ///< our own: from the third scattering on, relative to how bright the pixel is (integrators/path.h)
     Pbrt,   ///< from the second on, with the throughput
     Off
 };

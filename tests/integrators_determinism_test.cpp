@@ -161,7 +161,7 @@ TEST_P(Determinism, AnyOrderOfPixelsAndSamples) {
         RenderCounts counts;
         RenderControls controls;
         controls.lanes = lanes;
-        const auto integrator = makeIntegrator(scene.integrator);
+        const auto integrator = makeIntegrator(scene);
         for (const Piece& p : pieces)
             integrator->render(scene, {p.x, p.y, p.x + 1, p.y + 1}, p.samples, controls, shuffled, counts);
         EXPECT_TRUE(shuffled == reference().film()) << lanes << " lanes";

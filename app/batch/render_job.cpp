@@ -60,7 +60,7 @@ void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
         throw Error(ErrorKind::Usage, std::to_string(options_.replicates) +
                                           " replicates need at least as many samples per pixel, not " +
                                           std::to_string(scene_.samplesPerPixel));
-    integrator_ = makeIntegrator(scene_.integrator);
+    integrator_ = makeIntegrator(scene_);
     film_ = Film(scene_.film.crop, options_.replicates, scene_.filter.normalization());
     progress_.samples = film_.pixelCount() * std::uint64_t(scene_.samplesPerPixel);
     warningCount_ = warnings.all().size();

@@ -68,7 +68,7 @@ Contest::Contest(const RenderJob& job, std::size_t memoryBytes)
     : scene_(job.scene()),
       controls_(job.options().controls),
       samplesPerPixel_(std::min(std::uint32_t(scene_.samplesPerPixel), RayRoof::kMostSamplesPerPixel)),
-      integrator_(makeIntegrator(scene_.integrator)),
+      integrator_(makeIntegrator(scene_)),
       film_(scene_.film.crop, job.options().replicates, scene_.filter.normalization()),
       store_(memoryBytes) {
     for (const Tile& tile : scatteredTiles(film_.crop(), job.options().tileSize))
