@@ -40,6 +40,12 @@ Mask<F> isSound(const Vec3<F>& origin, const Vec3<F>& direction) {
     return (maxComponent(o) < F(1e18f)) & (o.x + o.y + o.z < F(1e19f)) & (d.x + d.y + d.z < F(2.f));
 }
 
+/// Throughput is nowhere negative, so its sum is a finite number where all of it is.
+template <class F>
+Mask<F> isFinite(const Spectrum<F>& throughput) {
+    return throughput.r + throughput.g + throughput.b < F(kInfinity);
+}
+
 /// Makes invalid samples of the paths of the chosen lanes.
 template <class F>
 void breakPaths(SlotBuffer& slots, const UInt<F>& slot, unsigned lanes) {
@@ -47,7 +53,7 @@ void breakPaths(SlotBuffer& slots, const UInt<F>& slot, unsigned lanes) {
 }
 
 /// What a shader works with: the scene, the batch and where its results go. Rays that are not sound never reach Embree:
-/// their paths become invalid samples.
+/// their paths become invalid samples, and so do those whose throughput is not finite.
 template <class F>
 struct Step {
     const Scene& scene;
@@ -72,7 +78,7 @@ struct Step {
         batch.shadowCount = n + std::popcount(keep);
     }
     void go(const RayGroup<F>& g, const PathRay<F>& ray, const Mask<F>& wanted) {
-        const Mask<F> going = wanted & g.live, sound = isSound(ray.origin, ray.direction);
+        const Mask<F> going = wanted & g.live, sound = isSound(ray.origin, ray.direction) & isFinite(ray.throughput);
         breakPaths<F>(batch.slots, g.slot, bits(Mask<F>(going & !sound)));
         const unsigned keep = bits(Mask<F>(going & sound));
         if (!keep) return;

@@ -199,6 +199,8 @@ private:
         const bool late = roulette_ == RouletteRule::Late;
         const Mask<F> plays = !(next.depth < UInt<F>(late ? 3u : 2u));
         if (none(plays)) return Mask<F>(true);
+        // What is not a number must not die here unseen: Step::go makes an invalid sample of it.
+        const Mask<F> broken = !isFinite(next.throughput);
         const F carried = max(maxComponent(next.throughput) * next.etaScale, F(0.f));
         F survival = min(carried, F(1.f));
         if (late) {
@@ -206,7 +208,7 @@ private:
             const F most = select(next.depth < UInt<F>(16u), F(1.f), F(0.95f));
             survival = min(sqrt(F(kFaint) * carried / (F(kDark) + next.firstLight)), most);
         }
-        const Mask<F> lives = (numbers.get1(Dim::Roulette) < survival) | !plays;
+        const Mask<F> lives = (numbers.get1(Dim::Roulette) < survival) | !plays | broken;
         next.throughput = select(plays & lives, next.throughput * (F(1.f) / survival), next.throughput);
         return lives;
     }

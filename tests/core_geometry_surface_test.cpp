@@ -210,5 +210,23 @@ TEST(SurfacePointsAtEdges, StayOffTheNextWall) {
     }
 }
 
+/// The shift of -1, as after a mesh of one vertex without normals, would be the mark of a mesh that has none.
+TEST(Geometry, NoShiftIsTheMarkOfNone) {
+    Geometry g;
+    TriangleMesh bare;
+    bare.positions = {0, 0, 0};
+    EXPECT_EQ(g.addMesh(std::move(bare)).normalShift, kNone);
+    TriangleMesh mesh;
+    mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    mesh.normals = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    mesh.indices = {0, 1, 2};
+    const ShapeRecord shape = g.addMesh(std::move(mesh));
+    ASSERT_NE(shape.normalShift, kNone);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        const std::uint32_t row = g.indices[corner] + shape.normalShift;
+        EXPECT_EQ(g.normals.at(3 * row), float(3 * corner + 1));
+    }
+}
+
 }  // namespace
 }  // namespace penumbra

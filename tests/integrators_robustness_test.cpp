@@ -109,6 +109,25 @@ TEST(InvalidSamples, AreCountedAndPoisonNothing) {
     EXPECT_EQ(plain->counts().invalid, 0u);
 }
 
+/// What a broken material makes of a path is no black sample, whichever way the path would have ended.
+TEST(InvalidSamples, ComeFromThroughputThatIsNoNumber) {
+    const std::string text = film(4, 4) +
+                             "Sampler \"independent\" \"integer pixelsamples\" 4\nIntegrator \"path\" \"integer "
+                             "maxdepth\" 12\nWorldBegin\nLightSource \"point\" \"point3 from\" [ 0 0 9 ]\n"
+                             "Material \"diffuse\"\nShape \"sphere\" \"float radius\" 2\n";
+    for (const float broken : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+        for (const RouletteRule roulette : {RouletteRule::Late, RouletteRule::Pbrt, RouletteRule::Off}) {
+            RenderOptions options;
+            options.build.roulette = roulette;
+            const auto sound = renderText(text, options), job = prepareText(text, options);
+            for (const DiffuseMaterial& m : job->scene().materials.rows<DiffuseMaterial>())
+                const_cast<DiffuseMaterial&>(m).reflectance.constant.g = broken;
+            job->run();
+            EXPECT_EQ(sound->counts().invalid, 0u);
+            EXPECT_EQ(job->counts().invalid, 4u * 4 * 4) << broken;
+        }
+}
+
 /// The largest sums that are allowed are exact.
 TEST(InvalidSamples, LargeValuesAreValuesUpToTheLimit) {
     const auto job = renderText(panels("\"rgb L\" [ 8e9 1 1 ]", 16));
@@ -184,7 +203,7 @@ std::string text(double x) {
 TEST(HostileNumbers, RaysThatAreNotFiniteBecomeInvalidSamples) {
     // The library of rays aborts on them, so none may reach it.
     const std::string floor = "Shape \"sphere\"\n";
-    for (const char* camera : {"Translate 1e30 0 0\nCamera \"perspective\"\n", "Scale 1e30 1e30 1e30\nCamera \"perspective\"\n",
+    for (const char* camera : {"Translate 1.5e18 0 0\nCamera \"perspective\"\n",
                                "Camera \"orthographic\" \"float screenwindow\" [ -1e30 1e30 -1e30 1e30 ]\n",
                                "Camera \"perspective\" \"float lensradius\" 1e30\n"}) {
         SCOPED_TRACE(camera);

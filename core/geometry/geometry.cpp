@@ -8,6 +8,7 @@ namespace {
 /// Appends a per-vertex array of `width` floats; returns the shift from global vertex numbers to its rows.
 std::uint32_t appendAttribute(std::vector<float>& all, std::vector<float>&& mesh, std::size_t width, std::size_t firstVertex) {
     if (mesh.empty()) return kNone;
+    if (all.size() / width + 1 == firstVertex) all.resize(all.size() + width);  // a shift of -1 would be kNone
     const std::size_t row = all.size() / width;
     if (all.capacity() == 0) all = std::move(mesh);   // unless room for several meshes was made
     else all.insert(all.end(), mesh.begin(), mesh.end());
