@@ -60,7 +60,7 @@ public:
     virtual ScalarInput scalar(std::string_view name, float otherwise) = 0;
     /// As scalar, with the default taken from another input (uroughness falls back to roughness).
     virtual ScalarInput scalar(std::string_view name, const ScalarInput& otherwise) = 0;
-    /// Relative index of a dielectric: float, spectrum or rgb; 0 counts as 1.
+    /// Relative index of a dielectric: float, spectrum or rgb.
     virtual float dielectricIndex(std::string_view name, float otherwise) = 0;
     /// eta and k of a conductor (default copper).
     virtual ConductorIndex conductorIndex(std::string_view eta, std::string_view k) = 0;

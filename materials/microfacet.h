@@ -82,7 +82,9 @@ struct RoughnessInputs {
         const ScalarInput both = input.scalar("roughness", 0.f);
         RoughnessInputs r{input.scalar("uroughness", both), input.scalar("vroughness", both)};
         const bool remap = input.parameters().boolean("remaproughness", true);
-        const auto settle = [remap](ScalarInput& roughness, std::uint32_t& root) {
+        const auto settle = [remap, &input](ScalarInput& roughness, std::uint32_t& root) {
+            if (!(roughness.constant >= 0 && roughness.constant <= 1))
+                input.fail("a roughness of " + std::to_string(roughness.constant) + " is outside the allowed range, 0 to 1");
             root = remap && roughness.texture != kNoTexture ? 1u : 0u;
             if (roughness.texture == kNoTexture) roughness.constant = alpha(roughness.constant, remap);
         };

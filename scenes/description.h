@@ -93,6 +93,7 @@ struct ObjectInstance {
 
 struct SceneDescription {
     std::string topFile;                    ///< as given; relative names resolve against its folder, then the working directory
+    std::string root;                       ///< the only folder that files are read from, as canonicalRoot() gives it; empty: any
     std::vector<std::string> files;         ///< every text file read; SourcePosition::file indexes it
     std::vector<std::string> digests;       ///< SHA-256 of the texts of `files` (inflated), in hexadecimal
     CameraEntity camera;
@@ -115,6 +116,13 @@ struct SceneDescription {
 };
 
 /// The file `name` of a scene: as it is if absolute, else in the folder of the top file, else in the working directory.
+/// Error(NotPermitted) where that is not inside the scene's root.
 std::string resolvePath(const SceneDescription& scene, const std::string& name);
+
+/// The folder as SceneDescription::root wants it: absolute, without links. Error(MissingInput) where it is no folder.
+std::string canonicalRoot(const std::string& folder);
+
+/// Error(NotPermitted) where the path, its links followed, is not inside the root; an empty root allows any.
+void checkInsideRoot(const std::string& root, const std::string& path);
 
 }  // namespace penumbra

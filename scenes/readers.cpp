@@ -1,5 +1,6 @@
 #include "scenes/readers.h"
 
+#include "core/base/text.h"
 #include "scenes/pbrt/reader.h"
 
 #include <filesystem>
@@ -10,7 +11,7 @@ namespace {
 
 struct SceneFormat {
     std::string extension;
-    SceneDescription (*read)(const std::string& path, Warnings& warnings);
+    SceneDescription (*read)(const std::string& path, Warnings& warnings, const std::string& root);
 };
 
 const std::vector<SceneFormat>& sceneFormats() {
@@ -26,21 +27,21 @@ std::string extensionOf(const std::string& path) {
 
 }  // namespace
 
-SceneDescription readScene(const std::string& path, Warnings& warnings) {
+SceneDescription readScene(const std::string& path, Warnings& warnings, const std::string& root) {
     const std::string extension = extensionOf(path);
-    if (extension.empty()) return readPbrtFile(path, warnings);
+    if (extension.empty()) return readPbrtFile(path, warnings, root);
     std::vector<std::string> known;
     for (const SceneFormat& format : sceneFormats()) {
-        if (format.extension == extension) return format.read(path, warnings);
+        if (format.extension == extension) return format.read(path, warnings, root);
         known.push_back(format.extension);
     }
     throw Error(ErrorKind::BadData,
-                path + ": no reader for scenes of the extension " + quote(extension) + suggestion(extension, known));
+                pathText(path) + ": no reader for scenes of the extension " + quote(extension) + suggestion(extension, known));
 }
 
 SceneDescription readSceneText(std::string_view text, const std::string& nameForMessages, const std::string& folder,
-                               Warnings& warnings) {
-    return readPbrtText(text, nameForMessages, folder, warnings);
+                               Warnings& warnings, const std::string& root) {
+    return readPbrtText(text, nameForMessages, folder, warnings, root);
 }
 
 }  // namespace penumbra

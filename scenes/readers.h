@@ -15,11 +15,12 @@ namespace penumbra {
 
 /// Reads a scene file. "-" is standard input; that and a name without extension are read as pbrt text. An extension .gz
 /// after the format's own says that the file is compressed.
-SceneDescription readScene(const std::string& path, Warnings& warnings);
+/// Where `root` is not empty, no file outside that folder is read (SceneDescription::root).
+SceneDescription readScene(const std::string& path, Warnings& warnings, const std::string& root = {});
 
 /// Reads a scene in the pbrt format from memory; `nameForMessages` stands for it in messages, the files that it names
 /// are found from `folder`.
 SceneDescription readSceneText(std::string_view text, const std::string& nameForMessages, const std::string& folder,
-                               Warnings& warnings);
+                               Warnings& warnings, const std::string& root = {});
 
 }  // namespace penumbra

@@ -150,7 +150,8 @@ TEST_F(SpectrumParameter, UnknownNameSuggestsTheNearestAndMissingFileSaysSo) {
 TEST_F(SpectrumParameter, IndexOfRefractionIsOneNumber) {
     const auto index = [&](const Parameter& p) { return readIndexOfRefraction(p, context, "material 'wall'"); };
     EXPECT_EQ(index(numbersParameter("float", "eta", {1.33f})), 1.33f);
-    EXPECT_EQ(index(numbersParameter("float", "eta", {0})), 1);
+    for (const float bad : {0.f, -1.f})
+        EXPECT_THROW(index(numbersParameter("float", "eta", {bad})), Error) << bad;
     EXPECT_NEAR(index(numbersParameter("rgb", "eta", {1.4f, 1.5f, 1.6f})), 1.5f, 1e-6f);
     EXPECT_NEAR(index(numbersParameter("spectrum", "eta", {300, 1.7f, 900, 1.7f})), 1.7f, 1e-6f);
     const std::pair<const char*, float> glasses[] = {

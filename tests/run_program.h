@@ -4,6 +4,7 @@
 #include "tests/temporary_folder.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +19,8 @@ namespace penumbra {
 struct ProgramRun {
     int code = 0;  ///< the exit code; 1000 + signal where a signal ended it
     std::string out, err;
+    double cpuSeconds = 0;        ///< of all threads
+    std::uint64_t peakBytes = 0;  ///< the most memory held at once; not less than the test itself held at the start
 };
 
 struct ProgramSurroundings {
@@ -59,10 +62,13 @@ public:
 
     ProgramRun wait() {
         int status = 0;
-        ::waitpid(process_, &status, 0);
+        rusage used{};
+        ::wait4(process_, &status, 0, &used);
         process_ = 0;
+        const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
         return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), readBytes(files_.path("out")),
-                readBytes(files_.path("err"))};
+                readBytes(files_.path("err")), seconds(used.ru_utime) + seconds(used.ru_stime),
+                std::uint64_t(used.ru_maxrss) << 10};
     }
 
 private:

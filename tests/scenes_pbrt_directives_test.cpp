@@ -295,6 +295,45 @@ TEST(ScenesPbrtDirectives, OnlyWarnings) {
               {"s.pbrt:2:1: 'AttributeBegin' has no 'AttributeEnd' (the end of the file closes it)"});
 }
 
+TEST(ScenesPbrtDirectives, UnknownOnesAreSkippedWithTheirValues) {
+    const SceneDescription scene = readWorld(
+        "Shpae \"sphere\" \"float radius\" [1 2] true -5 .5 [ \"a\" ] Shape \"a\" Materiol Shape \"b\" Shpae",
+        {"s.pbrt:2:1: unknown directive 'Shpae'; did you mean 'Shape'? (it is skipped with its values)",
+         "s.pbrt:2:66: unknown directive 'Materiol'; did you mean 'Material'? (it is skipped with its values)",
+         "s.pbrt:2:85: unknown directive 'Shpae'; did you mean 'Shape'? (it is skipped with its values)"});
+    ASSERT_EQ(scene.shapes.size(), 2u);
+    EXPECT_EQ(scene.shapes[0].type, "a");
+    EXPECT_EQ(scene.shapes[1].type, "b");
+}
+
+TEST(ScenesPbrtDirectives, NamesAreComposedUnicode) {
+    const std::string apart = "Gru\u0308n", one = "Gr\u00fcn";
+    const SceneDescription scene = readWorld(
+        "Texture \"" + apart + "\" \"float\" \"constant\" \"string path\" \"" + apart + "\"\n" +
+        "MakeNamedMaterial \"" + apart + "\" \"string type\" \"dielectric\" \"texture roughness\" \"" + apart +
+        "\"\nNamedMaterial \"" + apart + "\" Shape \"s\"\nObjectBegin \"" + apart + "\" ObjectEnd ObjectInstance \"" +
+        apart + "\"");
+    EXPECT_EQ(scene.textures.at(0).name, one);
+    EXPECT_EQ(scene.textures[0].parameters.text("path", ""), apart) << "files are found by the name they have";
+    EXPECT_EQ(scene.namedMaterials.at(0).name, one);
+    EXPECT_EQ(scene.namedMaterials[0].parameters.find("texture", "roughness")->strings().front(), one);
+    EXPECT_EQ(scene.shapes.at(0).material.name, one);
+    EXPECT_EQ(scene.objects.at(0).name, one);
+    EXPECT_EQ(scene.instances.at(0).name, one);
+}
+
+TEST(ScenesPbrtDirectives, WhatCannotBeADirectiveOrIsNoneTooOftenIsNoScene) {
+    Warnings warnings;
+    EXPECT_THROW(readSceneText("WorldBegin\n{ \"a\"", "s.pbrt", "", warnings), Error);
+    EXPECT_THROW(readSceneText("WorldBegin\nShape-a", "s.pbrt", "", warnings), Error);
+    EXPECT_THROW(readSceneText("WorldBegin\n" + std::string(101, 'S'), "s.pbrt", "", warnings), Error);
+    std::string many = "WorldBegin";
+    for (int i = 0; i < 100; ++i)
+        many += "\nNothing";
+    readSceneText(many, "s.pbrt", "", warnings);
+    EXPECT_THROW(readSceneText(many + "\nNothing", "s.pbrt", "", warnings), Error);
+}
+
 TEST(ScenesPbrtDirectives, WarningsAreErrorsWhereStrict) {
     Warnings strict(true);
     try {

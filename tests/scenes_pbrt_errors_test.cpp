@@ -51,17 +51,17 @@ TEST(ScenesPbrtErrors, WholeTexts) {
         {"\x7f"
          "ELF\x02",
          "s.pbrt:1:1: unknown directive '\\x7fELF\\x02'" +
-             messageOf("zzzzzz").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzzz'").size())},
+             messageOf("zzzzz~").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzz~'").size())},
         {std::string(1000000, 'S') + " 1",
          "s.pbrt:1:1: unknown directive '" + std::string(60, 'S') + "...'" +
-             messageOf("zzzzzz").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzzz'").size())},
+             messageOf("zzzzz~").substr(std::string("s.pbrt:1:1: unknown directive 'zzzzz~'").size())},
     });
 }
 
 TEST(ScenesPbrtErrors, Directives) {
     expectMessages({
-        {"Shpae \"sphere\"", "s.pbrt:1:1: unknown directive 'Shpae'; did you mean 'Shape'?"},
-        {"WorldBegin\n  Translte 0 0 1", "s.pbrt:2:3: unknown directive 'Translte'; did you mean 'Translate'?"},
+        {"Shpae! \"sphere\"", "s.pbrt:1:1: unknown directive 'Shpae!'; did you mean 'Shape'?"},
+        {"WorldBegin\n  Translte: 0 0 1", "s.pbrt:2:3: unknown directive 'Translte:'; did you mean 'Translate'?"},
         {"\"Film\"", "s.pbrt:1:1: expected a directive, found the string 'Film'"},
         {"Translate 1 2 3 4", "s.pbrt:1:17: expected a directive, found '4' after 'Translate'"},
         {"Film \"rgb\" [ 1 ]", "s.pbrt:1:12: expected a directive, found '[' after 'Film'"},

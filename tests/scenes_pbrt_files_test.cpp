@@ -175,10 +175,10 @@ TEST_F(ScenesPbrtFiles, ErrorsInIncludedTextsTellTheChain) {
     EXPECT_EQ(
         errorOf("top.pbrt"),
         "65 b.pbrt:1:9: a NUL byte: this is no text in UTF-8, included from a.pbrt:2:10, included from top.pbrt:1:20");
-    write("b.pbrt", "Shap \"x\"");
+    write("b.pbrt", "Shap! \"x\"");
     EXPECT_EQ(
         errorOf("top.pbrt"),
-        "65 b.pbrt:1:1: unknown directive 'Shap'; did you mean 'Shape'?, included from a.pbrt:2:10, included from "
+        "65 b.pbrt:1:1: unknown directive 'Shap!'; did you mean 'Shape'?, included from a.pbrt:2:10, included from "
         "top.pbrt:1:20");
 }
 
@@ -208,6 +208,30 @@ TEST_F(ScenesPbrtFiles, DoublingIncludesEnd) {
     }
     write("40.pbrt", padding);
     EXPECT_NE(errorOf("0.pbrt").find("files are included again and again"), std::string::npos) << errorOf("0.pbrt");
+}
+
+TEST_F(ScenesPbrtFiles, NothingOutsideTheRootIsFound) {
+    write("in/top.pbrt", "WorldBegin");
+    write("in/deep/a.ply", "");
+    write("out/b.ply", "");
+    fs::create_symlink("../out/b.ply", folder_ / "in/link.ply");
+    fs::create_symlink("deep/a.ply", folder_ / "in/inner.ply");
+    SceneDescription scene;
+    scene.topFile = path("in/top.pbrt");
+    scene.root = canonicalRoot(path("in/../in"));
+    for (const char* name : {"deep/a.ply", "deep/../deep/./a.ply", "inner.ply", "none.ply", "deep/none/none.ply"})
+        EXPECT_EQ(resolvePath(scene, name), path("in/" + std::string(name)));
+    EXPECT_EQ(resolvePath(scene, path("in/deep/a.ply")), path("in/deep/a.ply"));
+    for (const std::string& name : {std::string("../out/b.ply"), std::string("link.ply"), std::string("/etc/passwd"),
+                                    std::string(".."), std::string("deep/../../in2"), path("inside"), path("out/none")})
+        try {
+            resolvePath(scene, name);
+            ADD_FAILURE() << name;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::NotPermitted) << name;
+        }
+    EXPECT_THROW(canonicalRoot(path("none")), Error);
+    EXPECT_THROW(canonicalRoot(path("in/top.pbrt")), Error);
 }
 
 TEST_F(ScenesPbrtFiles, ReadersAreChosenByExtension) {

@@ -37,11 +37,29 @@ private:
     std::uint64_t count_, stride_;
 };
 
+void checkOptions(const RenderOptions& o) {
+    constexpr int kMost = std::numeric_limits<int>::max();
+    struct Range {
+        const char* name;
+        int value, least, most;
+    };
+    for (const Range& r : {Range{"replicates", o.replicates, 1, kMost}, Range{"tileSize", o.tileSize, 1, 1 << 14},
+                           Range{"batchSize", o.controls.batchSize, 1, kMaxBatch},
+                           Range{"samplesOverride", o.build.samplesOverride, 0, kMost},
+                           Range{"width", o.build.width, 0, kMost}, Range{"height", o.build.height, 0, kMost}})
+        if (r.value < r.least || r.value > r.most)
+            throw Error(ErrorKind::Usage, std::string(r.name) + " is " + std::to_string(r.value) +
+                                              ", outside the allowed range, " + std::to_string(r.least) + " to " +
+                                              std::to_string(r.most));
+    if (o.controls.lanes != 1 && o.controls.lanes != 8)
+        throw Error(ErrorKind::Usage, "lanes are " + std::to_string(o.controls.lanes) + "; there may be 1 or 8");
+}
+
 }  // namespace
 
 RenderJob::RenderJob(const RenderOptions& options, Warnings& warnings) : options_(options) {
     const auto start = std::chrono::steady_clock::now();
-    SceneDescription description = readScene(options.scene, warnings);
+    SceneDescription description = readScene(options.scene, warnings, options.root);
     times_.parse = secondsSince(start);
     prepare(std::move(description), warnings);
 }
@@ -52,6 +70,7 @@ RenderJob::RenderJob(SceneDescription description, const RenderOptions& options,
 }
 
 void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
+    checkOptions(options_);
     const auto start = std::chrono::steady_clock::now();
     applyOverrides(description, options_.overrides);
     inputs_ = findSceneInputs(description);

@@ -25,6 +25,7 @@ namespace penumbra {
 struct RenderOptions {
     std::string scene;  ///< path; "-": standard input
     std::vector<std::string> overrides;  ///< as scenes/overrides.h takes them
+    std::string root;   ///< the only folder that files are read from (canonicalRoot()); empty: any
     BuildOptions build;
     int replicates = 1;  ///< planes of the film
     int tileSize = 16;   ///< pixels; changes no bit
@@ -42,6 +43,7 @@ struct RenderTimes {
 
 class RenderJob {
 public:
+    /// Error(Usage) where a number of the options is outside its range.
     RenderJob(const RenderOptions& options, Warnings& warnings);
     /// A description made elsewhere (tests, tools) in the place of a file.
     RenderJob(SceneDescription description, const RenderOptions& options, Warnings& warnings);

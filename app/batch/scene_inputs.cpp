@@ -29,11 +29,13 @@ public:
     std::vector<std::string> paths() && { return std::move(paths_); }
 
 private:
-    void visitName(const std::string& name) {
+    void visitName(const std::string& name) try {
         if (name.empty() || !names_.insert(name).second) return;
         std::error_code ignored;
         const std::string path = resolvePath(scene_, name);
         if (std::filesystem::is_regular_file(path, ignored)) paths_.push_back(path);
+    } catch (const Error&) {
+        // Outside the root. If it is a file that the scene needs, the builder says so, and where.
     }
 
     const SceneDescription& scene_;

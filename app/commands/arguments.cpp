@@ -1,5 +1,7 @@
 #include "app/commands/arguments.h"
 
+#include "scenes/description.h"
+
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -211,6 +213,17 @@ std::pair<int, int> Arguments::parsePair(const std::string& names, const std::st
     if (at == std::string::npos)
         refuse(names, fmt::format("{} are not two whole numbers with '{}' between", quote(text), separator));
     return {int(parseWhole(names, text.substr(0, at), range)), int(parseWhole(names, text.substr(at + 1), range))};
+}
+
+void addRootOption(Arguments& arguments, std::string& root) {
+    arguments.text("--root", "FOLDER", "read no file outside this folder, links followed (default: files anywhere)",
+                   [&root](const std::string& folder) {
+                       try {
+                           root = canonicalRoot(folder);
+                       } catch (const Error& e) {
+                           throw Error(e.kind(), std::string("--root: ") + e.what());
+                       }
+                   });
 }
 
 std::string helpText(const CLI::App& app) {

@@ -81,6 +81,9 @@ private:
     std::string group_ = "Options";
 };
 
+/// --root, which confines what a scene may read; `root` gets the folder as SceneDescription::root has it.
+void addRootOption(Arguments& arguments, std::string& root);
+
 /// What --help prints: of the program (its commands) or of one command (its options with their defaults).
 std::string helpText(const CLI::App& app);
 

@@ -29,7 +29,7 @@ constexpr char kExamples[] =
     "  penumbra info scene.pbrt --json\n";
 
 struct InfoRequest {
-    std::string scene;
+    std::string scene, root;
     int threads = 0;
     bool json = false, strict = false;
 };
@@ -138,7 +138,7 @@ void runInfo(const InfoRequest& request) {
     const ThreadLimit threads(chooseThreads(request.threads));
     Warnings warnings(request.strict);
     WarningPrinter printer(warnings, false);
-    SceneDescription description = readScene(request.scene, warnings);
+    SceneDescription description = readScene(request.scene, warnings, request.root);
     const SceneInputs inputs = findSceneInputs(description);
     const Scene scene = buildScene(std::move(description), {}, warnings);
     const Json json = facts(request.scene, scene, inputs, warnings);
@@ -155,6 +155,7 @@ Command addInfoCommand(CLI::App& program) {
     arguments.positional("SCENE", request->scene, "the scene (.pbrt, .pbrt.gz); \"-\" reads standard input");
     arguments.flag("--json", request->json, "as JSON");
     arguments.flag("--strict", request->strict, "warnings are errors");
+    addRootOption(arguments, request->root);
     arguments.whole("-t,--nthreads", "N", {1, kMostThreads}, request->threads,
                     "threads (default: $SLURM_CPUS_PER_TASK, $CUE_THREADS, else every processor)");
     arguments.help();

@@ -23,8 +23,8 @@ constexpr char kFooter[] =
     "  penumbra convert picture.exr picture.png --exposure 1\n"
     "\n"
     "Exit codes: 0 done; 64 wrong command line; 65 wrong input; 66 missing input; 70 internal error;\n"
-    "71 out of memory; 73 output cannot be created; 74 output cannot be written; 78 wrong\n"
-    "configuration; 130, 143 ended by a signal.\n";
+    "71 out of memory; 73 output cannot be created; 74 output cannot be written; 77 not permitted\n"
+    "(--root); 78 wrong configuration; 130, 143 ended by a signal.\n";
 
 void runProgram(int argc, char** argv) {
     CLI::App program(kDescription, "penumbra");

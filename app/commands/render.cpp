@@ -187,6 +187,7 @@ void runRender(const RenderRequest& request) {
     printer.flush();
     if (request.pixel) return replay(job, request);
     const std::string path = request.outfile.value_or(job.scene().film.fileName);
+    if (!request.outfile) checkInsideRoot(request.options.root, path);
     checkPicturePath(path);
     checkKeepsInputs(path, job.inputs());
     renderPicture(job, request, path);
@@ -220,6 +221,7 @@ void addOutput(Arguments& arguments, RenderRequest& r) {
         [&r](const std::string& t) { setProgress(r, t); });
     arguments.flag("--strict", r.strict,
                    "warnings are errors, and so are samples that are not finite (the picture is then still written)");
+    addRootOption(arguments, r.options.root);
 }
 
 void addSampling(Arguments& arguments, RenderRequest& r) {

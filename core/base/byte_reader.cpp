@@ -1,5 +1,7 @@
 #include "core/base/byte_reader.h"
 
+#include "core/base/text.h"
+
 #include <sys/stat.h>
 #include <zlib.h>
 #include <algorithm>
@@ -142,13 +144,14 @@ ByteReader::~ByteReader() = default;
 ByteReader ByteReader::open(const std::string& path) {
     struct stat status {};
     // Looked at before it is opened: opening a pipe would wait for its writer.
-    if (::stat(path.c_str(), &status) != 0)
-        throw Error(ErrorKind::MissingInput, path + ": cannot be opened: " + std::strerror(errno));
-    if (!S_ISREG(status.st_mode)) throw Error(ErrorKind::MissingInput, path + ": is not a file");
-    std::FILE* file = std::fopen(path.c_str(), "rb");
-    if (!file) throw Error(ErrorKind::MissingInput, path + ": cannot be opened: " + std::strerror(errno));
+    std::string name = pathText(path);
+    const auto fail = [&](const std::string& reason) { throw Error(ErrorKind::MissingInput, name + ": " + reason); };
+    if (::stat(path.c_str(), &status) != 0) fail(std::string("cannot be opened: ") + std::strerror(errno));
+    if (!S_ISREG(status.st_mode)) fail("is not a file");
+    std::FILE* const file = std::fopen(path.c_str(), "rb");
+    if (!file) fail(std::string("cannot be opened: ") + std::strerror(errno));
     RawBytes raw(file, static_cast<std::uint64_t>(status.st_size));
-    return ByteReader(std::make_unique<Source>(std::move(raw)), path);
+    return ByteReader(std::make_unique<Source>(std::move(raw)), std::move(name));
 }
 
 ByteReader ByteReader::overMemory(std::string_view bytes, std::string name) {

@@ -64,7 +64,7 @@ bool ParameterSet::wasAsked(std::string_view type, std::string_view name) const 
 }
 
 void ParameterSet::noteAsked(std::string_view type, std::string_view name) const {
-    if (!wasAsked(type, name)) asked_.push_back({std::string(type), std::string(name)});
+    if (!list_.empty() && !wasAsked(type, name)) asked_.push_back({std::string(type), std::string(name)});
 }
 
 const Parameter* ParameterSet::find(std::string_view type, std::string_view name) const {
@@ -158,6 +158,7 @@ void ParameterSet::warnUnused(std::span<const std::string> files, std::string_vi
         if (!wasAsked(p.type, p.name))  // else a later twin was found in its place
             warnings.add(formatPosition(files, p.where) + ": " + unusedMessage(p, object));
     }
+    asked_ = {};  // of a million lights these names would be most of the memory
 }
 
 void ParameterSet::markAllUsed() const {

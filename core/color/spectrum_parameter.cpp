@@ -150,7 +150,6 @@ float readIndexOfRefraction(const Parameter& p, const SpectrumContext& context, 
         index = reader.rgb(INFINITY).mean();
     else
         index = meanIndex(reader.curve());
-    if (index == 0) return 1;
     if (!(index > 0) || !std::isfinite(float(index)))
         reader.fail(fmt::format("an index of refraction of {} is not above 0", index));
     return float(index);

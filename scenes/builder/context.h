@@ -43,6 +43,7 @@ public:
         }
     }
 
+    /// The path of a file of the scene; throws where it is not to be read, so call it inside placed().
     std::string path(const std::string& name) const { return spectra_.resolvePath(name); }
 
     /// The rgb, blackbody or spectrum of that name; null where absent.

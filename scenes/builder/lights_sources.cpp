@@ -58,7 +58,7 @@ public:
 private:
     void addImage(const std::string& file, float illuminance) {
         if (BuildContext::findSpectrum(parameters_, "L")) fail("takes either L or an image, not both");
-        const std::string path = context_.path(file);
+        const std::string path = context_.placed(light_.where, owner_, [&] { return context_.path(file); });
         const Image image = context_.placed(light_.where, owner_, [&] { return readImage(path); });
         if (image.width() != image.height())
             fail(
@@ -80,12 +80,17 @@ private:
         const Matrix3 toFilm = lightConversion(image.colorSpace(), context_.filmColorSpace());
         std::vector<float> pixels;
         pixels.reserve(3 * std::size_t(image.width()) * std::size_t(image.height()));
+        std::size_t broken = 0;
         for (int y = 0; y < image.height(); ++y)
             for (int x = 0; x < image.width(); ++x) {
                 const Rgb c = image.rgb(x, y);
+                broken += !c.isFinite();
                 const Rgb film = apply(toFilm, {std::fmax(c.r, 0.f), std::fmax(c.g, 0.f), std::fmax(c.b, 0.f)});
                 pixels.insert(pixels.end(), {film.r, film.g, film.b});
             }
+        if (broken)
+            context_.warn(light_.where, fmt::format("{}: {} pixels of the image are not finite and count as black",
+                                                    owner_, broken));
         return pixels;
     }
 

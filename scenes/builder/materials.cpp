@@ -1,5 +1,6 @@
 #include "scenes/builder/materials.h"
 
+#include "core/base/unicode.h"
 #include "scenes/builder/material_input.h"
 
 #include <fmt/format.h>
@@ -142,7 +143,7 @@ SceneMaterial MaterialLibrary::get(const MaterialReference& reference) {
 }
 
 SceneMaterial MaterialLibrary::getNamed(const std::string& name, SourcePosition where) {
-    const auto found = names_.find(name);
+    const auto found = names_.find(composed(name));  // a mix names its materials in plain strings
     if (found == names_.end()) {
         std::vector<std::string> known;
         for (const auto& entry : names_)

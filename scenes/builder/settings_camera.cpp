@@ -1,5 +1,6 @@
 // Camera and shutter.
 #include "scenes/builder/settings.h"
+#include "scenes/builder/shapes.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@ namespace penumbra::builder {
 namespace {
 
 constexpr float kMost = 1e30f;
+constexpr float kFarthest = 1e18f;  // whose square a float still holds
 
 CameraKind readKind(const CameraEntity& camera, BuildContext& context) {
     if (camera.type == "perspective") return CameraKind::Perspective;
@@ -39,6 +41,7 @@ void readScreen(const CameraEntity& camera, const FilmSettings& film, bool other
 Matrix4 inverse(const Matrix4& m, SourcePosition where, const BuildContext& context) {
     Matrix4 out;
     if (!invert(m, out)) context.fail(where, "the transformation of the camera has no inverse");
+    if (!isUsable(toRecord(out))) context.fail(where, "the camera is too far away, too large or too small to see");
     return out;
 }
 
@@ -67,7 +70,7 @@ CameraSettings readCamera(const SceneDescription& scene, Shutter shutter, const 
         options.width > 0 && options.height > 0 && askedWidth * options.height != askedHeight * options.width;
     readScreen(camera, film, otherAspect, context, s.screen);
     s.lensRadius = context.number(p, "lensradius", 0, 0, kMost);
-    s.focalDistance = context.number(p, "focaldistance", 1e6f, 1e-30f, kMost);
+    s.focalDistance = context.number(p, "focaldistance", 1e6f, 1e-30f, kFarthest);
     s.shutterOpen = shutter.open;
     s.shutterClose = shutter.close;
     s.transformTimes[0] = scene.transformTimes[0];

@@ -51,7 +51,7 @@ public:
     std::string path(std::string_view name) override {
         const std::string file = parameters().text(name, "");
         if (file.empty()) fail(fmt::format("\"string {}\" is missing", name));
-        return context_.path(file);
+        return context_.placed(texture_.where, owner_, [&] { return context_.path(file); });
     }
     const ParameterSet& parameters() const override { return texture_.parameters; }
     std::string where() const override { return context_.position(texture_.where) + ": " + owner_; }

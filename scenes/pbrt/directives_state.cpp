@@ -100,11 +100,11 @@ void Parser::concatTransform() {
 }
 
 void Parser::coordinateSystem() {
-    context_.coordinateSystems[values_.readString("the name of the coordinate system")] = state().ctm;
+    context_.coordinateSystems[values_.readName("the name of the coordinate system")] = state().ctm;
 }
 
 void Parser::coordSysTransform() {
-    const std::string name = values_.readString("the name of the coordinate system");
+    const std::string name = values_.readName("the name of the coordinate system");
     const auto found = context_.coordinateSystems.find(name);
     if (found != context_.coordinateSystems.end()) {
         state().ctm = found->second;

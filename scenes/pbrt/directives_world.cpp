@@ -29,13 +29,13 @@ void Parser::material() {
 }
 
 void Parser::namedMaterial() {
-    state().material = {values_.readString("the name of the material"), -1, where_};
+    state().material = {values_.readName("the name of the material"), -1, where_};
 }
 
 void Parser::makeNamedMaterial() {
     NamedMaterialEntity material;
     material.where = where_;
-    material.name = values_.readString("the name of the material");
+    material.name = values_.readName("the name of the material");
     material.parameters = readParametersWith(Defaults::Material);
     material.type = takeTypeParameter(material.parameters, "material");
     define(materials_, material.name, "material");
@@ -45,7 +45,7 @@ void Parser::makeNamedMaterial() {
 void Parser::texture() {
     TextureEntity texture;
     texture.where = where_;
-    texture.name = values_.readString("the name of the texture");
+    texture.name = values_.readName("the name of the texture");
     const SourcePosition kindWhere = sources_.peek().where;
     const std::string kind = values_.readString("\"float\" or \"spectrum\"");
     if (kind != "float" && kind != "spectrum" && kind != "color")  // color: the word of pbrt-v3
@@ -62,7 +62,7 @@ void Parser::texture() {
 void Parser::makeNamedMedium() {
     NamedMediumEntity medium;
     medium.where = where_;
-    medium.name = values_.readString("the name of the medium");
+    medium.name = values_.readName("the name of the medium");
     medium.parameters = readParametersWith(Defaults::Medium);
     medium.type = takeTypeParameter(medium.parameters, "medium");
     medium.mediumToWorld = state().ctm.start;
@@ -72,8 +72,8 @@ void Parser::makeNamedMedium() {
 
 void Parser::mediumInterface() {
     MediumReference& medium = state().medium;
-    medium.inside = values_.readString("the name of the inside medium");
-    medium.outside = values_.stringFollows() ? values_.readString("the name of the outside medium") : medium.inside;
+    medium.inside = values_.readName("the name of the inside medium");
+    medium.outside = values_.stringFollows() ? values_.readName("the name of the outside medium") : medium.inside;
     medium.given = true;
     medium.where = where_;
 }
@@ -99,7 +99,7 @@ void Parser::areaLightSource() {
 }
 
 void Parser::objectBegin() {
-    const std::string name = values_.readString("the name of the object");
+    const std::string name = values_.readName("the name of the object");
     if (context_.object >= 0)
         throw ErrorAt(where_, "'ObjectBegin' inside the object " +
                                   quote(scene_.objects[static_cast<std::size_t>(context_.object)].name));
@@ -115,7 +115,7 @@ void Parser::objectEnd() {
 }
 
 void Parser::objectInstance() {
-    const std::string name = values_.readString("the name of the object");
+    const std::string name = values_.readName("the name of the object");
     if (context_.object >= 0) throw ErrorAt(where_, "'ObjectInstance' inside 'ObjectBegin'");
     scene_.instances.push_back({name, where_, state().ctm});
 }

@@ -4,6 +4,17 @@
 
 namespace penumbra::pbrt {
 
+namespace {
+
+/// Whether a later version of the format could call a directive so.
+bool looksLikeDirective(std::string_view word) {
+    constexpr std::size_t kLongest = 100;
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    return word.size() <= kLongest && word.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
+}  // namespace
+
 const std::vector<Parser::Directive>& Parser::directives() {
     static const std::vector<Directive> table{
         {"Accelerator", Where::BeforeWorld, &Parser::accelerator},
@@ -70,7 +81,10 @@ void Parser::readDirectives() {
         const Token token = sources_.next();
         if (token.kind == TokenKind::End) return closeBlocksAtEnd();
         const Directive* d = token.kind == TokenKind::Word ? findDirective(token.text) : nullptr;
-        if (!d) failUnknown(token);
+        if (!d) {
+            skipUnknown(token);
+            continue;
+        }
         directive_ = d->name;
         where_ = token.where;
         checkPlace(*d);
@@ -78,14 +92,18 @@ void Parser::readDirectives() {
     }
 }
 
-void Parser::failUnknown(const Token& token) const {
+/// Passes over the directive and its values with a warning; throws where this is no directive at all.
+void Parser::skipUnknown(const Token& token) {
     if (token.kind != TokenKind::Word || looksLikeNumber(token.text))
         throw ErrorAt(token.where, "expected a directive, found " + describe(token) +
                                        (directive_.empty() ? "" : " after " + quote(directive_)));
     std::vector<std::string> names;
     for (const Directive& d : directives())
         names.emplace_back(d.name);
-    throw ErrorAt(token.where, "unknown directive " + quote(token.text) + suggestion(token.text, names));
+    const std::string message = "unknown directive " + quote(token.text) + suggestion(token.text, names);
+    if (!looksLikeDirective(token.text) || ++unknownDirectives_ > kMostUnknown) throw ErrorAt(token.where, message);
+    warnings_.add(scene_.position(token.where) + ": " + message + " (it is skipped with its values)");
+    values_.skipValues();
 }
 
 void Parser::checkPlace(const Directive& d) const {

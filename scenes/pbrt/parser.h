@@ -3,10 +3,11 @@
 // Grammar and state only: whether a shape or material of some type exists, and what its parameters mean, is the
 // business of whoever builds the scene; names of materials, media, textures and objects are resolved there too. What
 // pbrt calls an error at once is an ErrorAt here; what it only reports (an unknown colour space) is a warning, and so
-// are WorldEnd (of pbrt-v3), an unknown Option, and an AttributeBegin that the end of the file closes. Matrices of
-// things that do not move have start == end exactly.
+// are a directive that nobody knows (skipped with its values), WorldEnd (of pbrt-v3), an unknown Option, and an
+// AttributeBegin that the end of the file closes. Matrices of things that do not move have start == end exactly.
 //
-// Hostile input: blocks nest at most kDeepestBlocks deep; a matrix without inverse is an error; what a directive
+// Hostile input: blocks nest at most kDeepestBlocks deep; a text with more than kMostUnknown directives that nobody
+// knows, or with words that cannot be directives, is no scene; a matrix without inverse is an error; what a directive
 // inherits (Attribute parameters, names) beyond kFreelyInherited bytes may take kMostInherited bytes in all. Thread
 // safety: none; one instance reads one scene.
 #pragma once
@@ -24,6 +25,7 @@ namespace penumbra::pbrt {
 class Parser {
 public:
     static constexpr std::size_t kDeepestBlocks = 4096;
+    static constexpr std::size_t kMostUnknown = 100;
     static constexpr std::uint64_t kFreelyInherited = 1024;
     static constexpr std::uint64_t kMostInherited = std::uint64_t{128} << 20;
 
@@ -48,7 +50,7 @@ private:
     // parser.cpp: the loop, blocks and what all directives share
     void readDirectives();
     void checkPlace(const Directive& d) const;
-    [[noreturn]] void failUnknown(const Token& token) const;
+    void skipUnknown(const Token& token);
     void closeBlocksAtEnd();
     void openBlock(std::string_view beginsWith, std::string_view endsWith);
     void closeBlock();
@@ -123,6 +125,7 @@ private:
     SourcePosition where_;        ///< its place
     SourcePosition worldBegan_;   ///< line 0: not yet
     std::uint64_t inheritedBytes_ = 0;
+    std::size_t unknownDirectives_ = 0;
     Names floatTextures_, spectrumTextures_, materials_, media_, objects_;
 };
 

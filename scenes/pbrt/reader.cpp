@@ -10,9 +10,10 @@ namespace {
 
 /// `open` opens the top file. The only place where places become text.
 template <class Open>
-SceneDescription readPbrt(const std::string& topFile, Warnings& warnings, Open&& open) {
+SceneDescription readPbrt(const std::string& topFile, const std::string& root, Warnings& warnings, Open&& open) {
     SceneDescription scene;
     scene.topFile = topFile;
+    scene.root = root;
     pbrt::Sources sources(scene);
     try {
         open(sources);
@@ -25,8 +26,8 @@ SceneDescription readPbrt(const std::string& topFile, Warnings& warnings, Open&&
 
 }  // namespace
 
-SceneDescription readPbrtFile(const std::string& path, Warnings& warnings) {
-    return readPbrt(path, warnings, [&](pbrt::Sources& sources) {
+SceneDescription readPbrtFile(const std::string& path, Warnings& warnings, const std::string& root) {
+    return readPbrt(path, root, warnings, [&](pbrt::Sources& sources) {
         if (path == "-")
             sources.openStandardInput();
         else
@@ -35,9 +36,9 @@ SceneDescription readPbrtFile(const std::string& path, Warnings& warnings) {
 }
 
 SceneDescription readPbrtText(std::string_view text, const std::string& name, const std::string& folder,
-                              Warnings& warnings) {
+                              Warnings& warnings, const std::string& root) {
     const std::string topFile = (std::filesystem::path(folder) / name).string();
-    return readPbrt(topFile, warnings, [&](pbrt::Sources& sources) { sources.openText(text, name); });
+    return readPbrt(topFile, root, warnings, [&](pbrt::Sources& sources) { sources.openText(text, name); });
 }
 
 }  // namespace penumbra

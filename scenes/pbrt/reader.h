@@ -14,10 +14,11 @@
 namespace penumbra {
 
 /// Reads a file (plain or gzip), or standard input where `path` is "-".
-SceneDescription readPbrtFile(const std::string& path, Warnings& warnings);
+/// `root` as SceneDescription has it.
+SceneDescription readPbrtFile(const std::string& path, Warnings& warnings, const std::string& root = {});
 
-/// Reads a text; `name` stands for it in messages, other files are found from `folder`. A fuzzer's entry.
+/// Reads a text; `name` stands for it in messages, other files are found from `folder`.
 SceneDescription readPbrtText(std::string_view text, const std::string& name, const std::string& folder,
-                              Warnings& warnings);
+                              Warnings& warnings, const std::string& root = {});
 
 }  // namespace penumbra

@@ -67,21 +67,31 @@ void Sources::openStandardInput() {
     open_.push_back(std::make_unique<Source>(std::move(text), std::string_view(), file));
 }
 
+/// Gives the errors of `work` that have no place (of a damaged gzip file, of a path that is not allowed) this one.
+template <class Work>
+void Sources::atPlace(SourcePosition where, const Work& work) {
+    try {
+        work();
+    } catch (const ErrorAt&) {
+        throw;
+    } catch (const Error& e) {
+        throw ErrorAt(where, e.what(), e.kind());
+    }
+}
+
 void Sources::openTopFile(const std::string& path) {
-    push(path, statusOf(path, {fileIndex(path), 0, 0}), {});
+    const SourcePosition where{fileIndex(path), 0, 0};
+    atPlace(where, [&] { checkInsideRoot(scene_.root, path); });
+    push(path, statusOf(path, where), {});
 }
 
 void Sources::include(const std::string& name, SourcePosition where) {
-    const std::string path = resolvePath(scene_, name);
-    const FileStatus status = statusOf(path, where);
-    checkNesting(status.identity, name, where);
-    try {
+    atPlace(where, [&] {
+        const std::string path = resolvePath(scene_, name);
+        const FileStatus status = statusOf(path, where);
+        checkNesting(status.identity, name, where);
         push(path, status, where);
-    } catch (const ErrorAt&) {
-        throw;
-    } catch (const Error& e) {  // of the bytes: a damaged gzip file
-        throw ErrorAt(where, e.what(), e.kind());
-    }
+    });
 }
 
 Sources::FileStatus Sources::statusOf(const std::string& path, SourcePosition where) {

@@ -74,6 +74,8 @@ private:
         std::optional<Identity> identity;
     };
 
+    template <class Work>
+    static void atPlace(SourcePosition where, const Work& work);
     static FileStatus statusOf(const std::string& path, SourcePosition where);
     std::uint32_t fileIndex(const std::string& name);
     void noteDigest(std::uint32_t file, std::string_view text);

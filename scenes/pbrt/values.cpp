@@ -1,5 +1,7 @@
 #include "scenes/pbrt/values.h"
 
+#include "core/base/unicode.h"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -78,6 +80,10 @@ std::string ValueReader::readString(std::string_view what) {
     if (token.kind != TokenKind::String)
         throw ErrorAt(token.where, "expected " + std::string(what) + " in quotes, found " + describe(token));
     return decodeString(token);
+}
+
+std::string ValueReader::readName(std::string_view what) {
+    return composed(readString(what));
 }
 
 void ValueReader::readNumbers(std::string_view directive, std::span<double> out) {
@@ -204,7 +210,10 @@ void ValueReader::readValue(Parameter& p) {
         }
         case ValueKind::Strings: {
             std::vector<std::string> list;
-            visitValue([&](const Token& token) { list.push_back(parseString(token)); });
+            const bool isName = p.type == "texture";
+            visitValue([&](const Token& token) {
+                list.push_back(isName ? composed(parseString(token)) : parseString(token));
+            });
             p.values = std::move(list);
             break;
         }
@@ -217,6 +226,17 @@ void ValueReader::readValue(Parameter& p) {
 
 void ValueReader::skipValue() {
     visitValue([](const Token&) {});
+}
+
+void ValueReader::skipValues() {
+    for (;;) {
+        const Token& token = sources_.peek();
+        const bool isWord = token.kind == TokenKind::Word;
+        const bool isValue = token.kind == TokenKind::String || token.kind == TokenKind::Open ||
+                             (isWord && (looksLikeNumber(token.text) || token.text == "true" || token.text == "false"));
+        if (!isValue) return;
+        skipValue();
+    }
 }
 
 void ValueReader::checkValue(const Parameter& p) {

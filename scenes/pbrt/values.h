@@ -28,6 +28,8 @@ public:
 
     /// A string in quotes; `what` says what it is, for the message where there is none: "the type of the shape".
     std::string readString(std::string_view what);
+    /// The same as a name of the scene's own: names are compared in Unicode's composed form.
+    std::string readName(std::string_view what);
     bool stringFollows() { return sources_.peek().kind == TokenKind::String; }
     /// Exactly so many numbers, with or without brackets; `directive` is whose they are.
     void readNumbers(std::string_view directive, std::span<double> out);
@@ -37,6 +39,8 @@ public:
     void readValue(Parameter& p);
     /// Passes over one value of any kind.
     void skipValue();
+    /// Passes over all strings, lists, numbers and booleans up to the next word that is none.
+    void skipValues();
 
 private:
     Parameter readDeclaration();
