@@ -1,0 +1,40 @@
+// Fuzz target: the PLY reader, plain and gzip, and what the builder does with the mesh first.
+
+#include "core/geometry/ply.h"
+#include "tests/fuzz/property.h"
+
+#include <string>
+
+namespace penumbra {
+namespace {
+
+void readMesh(const std::string& bytes, Warnings& warnings) {
+    TriangleMesh mesh = readPlyBytes(bytes, "fuzz.ply", warnings);
+    const std::size_t vertices = mesh.vertexCount();
+    fuzz::require(mesh.indices.size() % 3 == 0, "triangles have three corners");
+    fuzz::require(std::all_of(mesh.indices.begin(), mesh.indices.end(), [&](auto i) { return i < vertices; }),
+                  "every index has its vertex");
+    fuzz::require(mesh.normals.empty() || mesh.normals.size() == 3 * vertices, "each vertex has its normal");
+    fuzz::require(mesh.uvs.empty() || mesh.uvs.size() == 2 * vertices, "each vertex has its uv");
+    fuzz::require(mesh.faceIndices.empty() || mesh.faceIndices.size() == mesh.triangleCount(), "triangles have numbers");
+    // A byte of a file is worth 100 when it is compressed, and a quad of five bytes is six indices of four.
+    fuzz::require(mesh.positions.size() + mesh.indices.size() <= (std::size_t{64} << 20) + 2000 * bytes.size(),
+                  "a mesh is not larger than its file can say");
+    dropBadTriangles(mesh);
+    bounds(mesh);
+}
+
+}  // namespace
+}  // namespace penumbra
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+    using namespace penumbra;
+    Warnings warnings;
+    try {
+        readMesh(std::string(reinterpret_cast<const char*>(data), size), warnings);
+    } catch (const Error& e) {
+        fuzz::requireGoodError(e);
+    }
+    fuzz::requireGoodWarnings(warnings);
+    return 0;
+}
