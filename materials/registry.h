@@ -15,7 +15,9 @@
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
+#include "materials/diffuse_transmission.h"
 #include "materials/interface.h"
+#include "materials/thin_dielectric.h"
 
 #include <array>
 #include <concepts>
@@ -25,7 +27,8 @@
 namespace penumbra {
 
 using MaterialTypes =
-    TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial>;
+    TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial,
+             ThinDielectricMaterial, DiffuseTransmissionMaterial>;
 
 /// What an integrator asks of a closure.
 template <class B, class F>

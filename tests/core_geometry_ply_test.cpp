@@ -469,6 +469,13 @@ TEST(PlyHostile, NeededElementsAndPropertiesAreNamed) {
     EXPECT_EQ(errorOf(list + "element face 0\nend_header\n"), "m.ply: element 'vertex' lacks x, y or z");
 }
 
+TEST(PlyHostile, NamesOfElementsAreShownSafely) {
+    const std::string text = "ply\nformat ascii 1.0\nelement mat\x01 1\nproperty list uchar float w\nelement vertex 1\n"
+                             "property float x\nproperty float y\nproperty float z\nelement face 0\n"
+                             "property list uchar int vertex_indices\nend_header\nfoo bar\n0 0 0\n";
+    EXPECT_CONTAINS(errorOf(text), "m.ply: 'mat\\x01' ");
+}
+
 TEST(PlyHostile, IndicesAreChecked) {
     for (const Coding coding : kCodings) {
         const auto fileWith = [&](const std::string& type, double index) {
@@ -567,7 +574,7 @@ TEST(PlyHostile, GzipBombsAreLimited) {
     std::string skipped =
         "ply\nformat binary_little_endian 1.0\nelement x 1\nproperty list uint uchar n\nelement vertex 0\n"
         "property float x\nproperty float y\nproperty float z\nelement face 0\n"
-        "property list uchar int vertex_indices\nend_header\n";
+        "property list uchar int vertex_indices\nend_header\nfoo bar\n0 0 0\n";
     skipped += std::string("\xff\xff\xff\x7f", 4);
     skipped.resize(80 << 20);
     EXPECT_CONTAINS(errorOf(compressed(skipped)), "inflates to more than 64 MiB plus 100 times");

@@ -131,6 +131,15 @@ inline std::vector<Settings> settingsOf(std::string_view material) {
         add({number("eta", 1.33f), number("roughness", 0.2f)});
         add({number("eta", 0.6f), number("roughness", 0.2f)});
         add({number("eta", 2.4f), number("uroughness", 0.1f), number("vroughness", 0.5f), plainAlpha()});
+    } else if (material == "thindielectric") {
+        add({number("eta", 1)});
+        add({number("eta", 0.7f)});
+        add({number("eta", 2.4f)});
+    } else if (material == "diffusetransmission") {
+        add({color("reflectance", 0.3f, 0.6f, 0), color("transmittance", 0.7f, 0.4f, 1)});
+        add({color("reflectance", 0, 0, 0), color("transmittance", 0.2f, 0.5f, 0.9f)});
+        add({color("reflectance", 0.8f, 0.5f, 0.1f), color("transmittance", 0, 0, 0)});
+        add({color("reflectance", 0.5f, 0.25f, 0.1f), color("transmittance", 0.4f, 0.3f, 0.1f), number("scale", 0.5f)});
     } else if (material == "coateddiffuse") {
         add({color("reflectance", 1, 1, 1)});
         add({color("reflectance", 0, 0, 0), number("roughness", 0.1f)});

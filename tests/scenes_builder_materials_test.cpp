@@ -80,15 +80,8 @@ TEST(MaterialLibrary, StandInsWarnOnceAndTakeWhatTheyKnow) {
     EXPECT_EQ(coated.warnings.all()[0],
               "test.pbrt:3:1: the material 'coatedconductor' is not there yet; 'conductor' stands in for it");
 
-    EXPECT_EQ(withMaterial("Material \"thindielectric\"").scene.materials.rows<InterfaceMaterial>().size(), 1u);
     EXPECT_EQ(onlyMaterial<DielectricMaterial>(withMaterial("Material \"subsurface\"")).eta, 1.33f);
     EXPECT_EQ(onlyMaterial<DielectricMaterial>(withMaterial("Material \"subsurface\" \"float eta\" 1.5")).eta, 1.5f);
-    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"diffusetransmission\"")).reflectance.constant.r,
-              0.25f);
-    EXPECT_EQ(
-        onlyMaterial<DiffuseMaterial>(withMaterial("Material \"diffusetransmission\" \"rgb reflectance\" [.7 .7 .7]"))
-            .reflectance.constant.r,
-        0.7f);
     EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"hair\" \"rgb color\" [.7 .7 .7]"))
                   .reflectance.constant.r,
               0.7f);
@@ -96,6 +89,15 @@ TEST(MaterialLibrary, StandInsWarnOnceAndTakeWhatTheyKnow) {
                   .scene.materials.rows<DiffuseMaterial>()
                   .size(),
               1u);
+}
+
+TEST(MaterialLibrary, ThinSheetsAndPanes) {
+    EXPECT_EQ(onlyMaterial<ThinDielectricMaterial>(withMaterial("Material \"thindielectric\" \"float eta\" 1.3")).eta, 1.3f);
+    const auto sheet = onlyMaterial<DiffuseTransmissionMaterial>(
+        withMaterial("Material \"diffusetransmission\" \"rgb transmittance\" [.1 .7 .7] \"float scale\" 0.5"));
+    EXPECT_EQ(sheet.reflectance.constant.r, 0.25f);
+    EXPECT_EQ(sheet.transmittance.constant.r, 0.1f);
+    EXPECT_EQ(sheet.scale, 0.5f);
 }
 
 TEST(MaterialLibrary, MixIsItsFirst) {

@@ -235,8 +235,10 @@ private:
                 else
                     skipElement(decoder, element);
             } catch (const BadEntry& bad) {
-                throw Error(ErrorKind::BadData, file_ + ": " + element.name + " " + std::to_string(entry_) + " of " +
-                                                    std::to_string(element.count) + ": " + bad.message);
+                const bool known = &element == vertex_ || &element == face_;   // other names may hold anything
+                throw Error(ErrorKind::BadData, file_ + ": " + (known ? element.name : quote(element.name)) + " " +
+                                                    std::to_string(entry_) + " of " + std::to_string(element.count) + ": " +
+                                                    bad.message);
             }
         }
         if (decoder.hasMore()) warnings_.add(file_ + ": has more data than its header says; the rest is ignored");

@@ -46,8 +46,6 @@ const std::vector<MaterialStandIn>& materialStandIns() {
           {"conductor.vroughness", "vroughness"},
           {"remaproughness", "remaproughness"}},
          {}},
-        {"thindielectric", "interface", {}, {}},
-        {"diffusetransmission", "diffuse", {{"reflectance", "reflectance"}}, {greyParameter("reflectance", 0.25f)}},
         {"subsurface",
          "dielectric",
          {{"eta", "eta"},
