@@ -35,5 +35,5 @@ set(seeds "${SOURCE_DIR}/tests/fuzz/seeds/${NAME}")
 if(NAME STREQUAL "scene")
     list(APPEND seeds "${SOURCE_DIR}/scenes/gallery")
 endif()
-run("${build}/fuzz_${NAME}" -max_total_time=${SECONDS} -timeout=10 -rss_limit_mb=2048 -max_len=16384 -use_value_profile=1
+run("${build}/fuzz_${NAME}" -max_total_time=${SECONDS} -timeout=30 -rss_limit_mb=2048 -max_len=16384 -use_value_profile=1
     ${dictionary} "-artifact_prefix=${build}/${NAME}-" -print_final_stats=1 "${corpus}" ${seeds})
