@@ -23,7 +23,7 @@ public:
         // The hemisphere that the viewer sees.
         Vec3<F> direction = at.frame.toWorld(w);
         direction = flipSign(dot(at.frame.n, g.direction) > F(0.f), direction);
-        step.shadow(g, offsetOrigin(at.p, at.error, at.ng, direction), direction, F(maxDistance_), Spectrum<F>::constant(weight), g.live);
+        step.shadow(g, offsetOrigin(at.p, at.error, at.ng, direction), direction, F(maxDistance_), g.throughput * weight, g.live);
     }
     template <class F>
     void miss(Step<F>&, const RayGroup<F>&) const noexcept {}

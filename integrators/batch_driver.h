@@ -184,11 +184,12 @@ private:
         store(s.time + at, ray.time);
         store(s.sign + at, f.sign);
         for (float* v : {s.r + at, s.g + at, s.b + at}) store(v, F(0.f));
-        store(s.covered + at, UInt<F>(0u));
-        const PathRay<F> first{ray.origin, ray.direction, Spectrum<F>::constant(F(1.f)), F(0.f), F(1.f), ray.coneWidth, slot, UInt<F>(0u),
-                               UInt<F>(scene_.cameraMedium), F(0.f)};
-        const Mask<F> sound = isSound(ray.origin, ray.direction);
-        const unsigned asked = (1u << n) - 1u, keep = bits(sound) & asked;
+        // What the camera keeps out is black, and not empty.
+        const Mask<F> dark = !(ray.weight > F(0.f));
+        store(s.covered + at, select(dark, UInt<F>(1u), UInt<F>(0u)));
+        const PathRay<F> first{ray.origin, ray.direction, Spectrum<F>::constant(ray.weight), F(0.f), F(1.f) / ray.weight, ray.coneWidth,
+                               slot, UInt<F>(0u), UInt<F>(scene_.cameraMedium), F(0.f)};
+        const unsigned asked = ((1u << n) - 1u) & ~bits(dark), keep = bits(isSound(ray.origin, ray.direction)) & asked;
         breakPaths<F>(s, slot, asked & ~keep);
         first.store(batch_.rays[0], batch_.live, keep);
         batch_.live += std::popcount(keep);

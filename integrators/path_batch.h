@@ -69,7 +69,7 @@ struct PathRay {
     Vec3<F> origin, direction;
     Spectrum<F> throughput;
     F bsdfPdf;                  ///< density with which the direction was chosen; 0: emission met counts whole
-    F etaScale;                 ///< product of squared relative indices crossed, for roulette
+    F etaScale;                 ///< for roulette: product of squared relative indices crossed, over the weight of the camera ray
     F coneWidth;                ///< of the ray's cone at its origin
     UInt<F> slot, depth;        ///< depth: scattering events so far
     UInt<F> medium;

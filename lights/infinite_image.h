@@ -12,7 +12,7 @@
 
 #include "core/math/distribution.h"
 #include "core/math/matrix.h"
-#include "lights/equal_area.h"
+#include "core/math/equal_area.h"
 #include "lights/infinite_light.h"
 
 #include <span>

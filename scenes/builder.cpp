@@ -19,7 +19,7 @@ void buildSettings(const SceneDescription& description, const BuildOptions& opti
                    Scene& scene) {
     const Shutter shutter = readShutter(description.camera, context);
     scene.film = readFilm(description.film, shutter, options, context);
-    scene.camera = Camera(readCamera(description, shutter, scene.film, options, context));
+    scene.camera = readCamera(description, shutter, scene.film, options, context);
     scene.hasMotion = scene.camera.moves();
     scene.filter = Filter(readFilter(description.filter, context));
     SamplerChoice choice = readSampler(description, options, context);

@@ -149,6 +149,30 @@ TEST(Camera, RaysMeetInThePlaneOfFocus) {
     EXPECT_NEAR(squares / 4096, 0.3 * 0.3 / 2, 1e-4);  // the mean of r^2 over a disk
 }
 
+/// Polygons of blades: uniform (the polar moment of a regular polygon), inside the circle, one corner up.
+TEST(Camera, BladedApertures) {
+    for (const int n : {3, 5, 8}) {
+        const auto job = jobWith(
+            "Camera \"perspective\" \"float lensradius\" .3 \"float focaldistance\" 5 \"integer apertureblades\" " +
+            std::to_string(n));
+        constexpr int kSide = 200;
+        double squares = 0, highest = 0, lowest = 0;
+        Vec3d sum;
+        for (int i = 0; i < kSide * kSide; ++i) {
+            const Vec2<float> u{(float(i % kSide) + 0.5f) / kSide, (float(i / kSide) + 0.5f) / kSide};
+            const Vec3d q = widened(job->scene().camera.ray<float>({24, 16}, u, 0.f).origin) * (1 / 0.3);
+            squares += dot(q, q);
+            sum = sum + q;
+            highest = std::max(highest, q.y), lowest = std::min(lowest, q.y);
+        }
+        const double step = 2 * std::numbers::pi / n;
+        EXPECT_NEAR(squares / (kSide * kSide), (2 + std::cos(step)) / 6, 2e-3);
+        EXPECT_LT(length(sum) / (kSide * kSide), 2e-3);
+        EXPECT_NEAR(highest, 1, 0.02);
+        EXPECT_NEAR(lowest, n % 2 ? -std::cos(step / 2) : -1, 0.02);
+    }
+}
+
 /// Times: uniform while the shutter is open, in terms of the transform times, and held at their ends.
 TEST(Camera, Shutter) {
     const std::string mesh =
@@ -184,9 +208,15 @@ TEST(Camera, Motion) {
         2e-5);
 }
 
-TEST(Camera, EightLanesGiveTheBitsOfOne) {
-    const auto job = jobWith("ActiveTransform EndTime\nRotate -30 0 1 0\nTranslate -2 0 -1\nActiveTransform All\n" +
-                             kLookAt + "Camera \"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3");
+class CameraLanes : public testing::TestWithParam<const char*> {};
+
+TEST_P(CameraLanes, EightLanesGiveTheBitsOfOne) {
+    const TemporaryFolder folder;
+    folder.file("lens.dat", "30 5 1.6 20\n 0 3 0 10\n 200 3 1.6 12\n -60 0 1 12\n");
+    const auto job =
+        prepareText("ActiveTransform EndTime\nRotate -30 0 1 0\nTranslate -2 0 -1\nActiveTransform All\n" + kLookAt +
+                        "Camera " + GetParam() + film(48, 32) + "WorldBegin\nLightSource \"infinite\"\n",
+                    {}, folder.path(""));
     Random random(3);
     for (int i = 0; i < 200; ++i) {
         Vec2<Lanes8f> raster, lens;
@@ -210,9 +240,18 @@ TEST(Camera, EightLanesGiveTheBitsOfOne) {
             EXPECT_EQ(lane(wide.direction.y, k), one.direction.y);
             EXPECT_EQ(lane(wide.direction.z, k), one.direction.z);
             EXPECT_EQ(lane(wide.time, k), one.time);
+            EXPECT_EQ(lane(wide.weight, k), one.weight);
         }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(
+    Types, CameraLanes,
+    testing::Values("\"perspective\" \"float lensradius\" .1 \"float focaldistance\" 3 ",
+                    "\"orthographic\" \"float lensradius\" .1 \"integer apertureblades\" 6 ", "\"spherical\" ",
+                    "\"spherical\" \"string mapping\" \"equirectangular\" ",
+                    "\"realistic\" \"string lensfile\" \"lens.dat\" \"float aperturediameter\" 8 ",
+                    "\"realistic\" \"string lensfile\" \"lens.dat\" \"string aperture\" \"star\" "));
 
 }  // namespace
 }  // namespace penumbra

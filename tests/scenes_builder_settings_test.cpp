@@ -191,10 +191,14 @@ TEST(BuildCamera, AnotherAspectOnTheCommandLineMakesAnotherScreen) {
     EXPECT_NEAR(edgeSlope(settings(scene, o).scene), 4, 1e-4);
 }
 
-TEST(BuildCamera, OthersAreReplaced) {
-    const BuiltScene built = settings("Camera \"realistic\" \"string lensfile\" \"x.dat\"");
-    ASSERT_EQ(built.warnings.all().size(), 1u);
-    EXPECT_TRUE(built.warnsOf("the camera 'realistic' is not there yet; it counts as 'perspective'"));
+TEST(BuildCamera, SphericalCamerasTakeWhatProjectiveOnesTake) {
+    const BuiltScene built = settings(
+        "Camera \"spherical\" \"float frameaspectratio\" 2 \"float screenwindow\" [-1 1 -1 1] \"float lensradius\" 1");
+    EXPECT_TRUE(built.warnings.all().empty());
+    EXPECT_EQ(built.scene.camera.info().name, "spherical");
+    EXPECT_NE(
+        errorOf("Camera \"spherical\" \"string mapping\" \"equalara\"\nWorldBegin").find("did you mean 'equalarea'?"),
+        std::string::npos);
 }
 
 struct BadText {

@@ -16,8 +16,8 @@ const ColorSpace& filmColorSpace(const SceneDescription& scene);
 
 Shutter readShutter(const CameraEntity& camera, const BuildContext& context);
 FilmSettings readFilm(const FilmEntity& film, Shutter shutter, const BuildOptions& options, BuildContext& context);
-CameraSettings readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film,
-                          const BuildOptions& options, BuildContext& context);
+Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, const BuildOptions& options,
+                  BuildContext& context);
 FilterSettings readFilter(const Entity& filter, BuildContext& context);
 IntegratorSettings readIntegrator(const Entity& integrator, const BuildOptions& options, BuildContext& context);
 

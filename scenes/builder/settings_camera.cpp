@@ -8,34 +8,58 @@ namespace penumbra::builder {
 namespace {
 
 constexpr float kMost = 1e30f;
-constexpr float kFarthest = 1e18f;  // whose square a float still holds
 
-CameraKind readKind(const CameraEntity& camera, BuildContext& context) {
-    if (camera.type == "perspective") return CameraKind::Perspective;
-    if (camera.type == "orthographic") return CameraKind::Orthographic;
-    static const std::vector<std::string> known{"perspective", "orthographic", "spherical", "realistic"};
-    if (camera.type != "spherical" && camera.type != "realistic")
-        context.fail(camera.where, "unknown camera " + quote(camera.type) + suggestion(camera.type, known));
-    context.warn(camera.where, "the camera " + quote(camera.type) + " is not there yet; it counts as 'perspective'");
-    return CameraKind::Perspective;
-}
+class SceneCameraInput final : public CameraInput {
+public:
+    /// `ownAspect`: the command line makes a picture of another shape, which the camera has to follow.
+    SceneCameraInput(const SceneDescription& scene, const FilmSettings& film, bool ownAspect, BuildContext& context)
+        : camera_(scene.camera),
+          film_(film),
+          diagonal_(context.number(scene.film.parameters, "diagonal", 35, 1e-3f, 1e6f)),
+          ownAspect_(ownAspect),
+          context_(context) {}
 
-/// x0 x1 y0 y1 of the picture on the plane z = 1.
-void readScreen(const CameraEntity& camera, const FilmSettings& film, bool otherAspect, const BuildContext& context,
-                double screen[4]) {
-    const float shape = float(film.width) / float(film.height);
-    const float given = context.number(camera.parameters, "frameaspectratio", shape, 1e-6f, 1e6f);
-    const double aspect = otherAspect ? shape : given;
+    int width() const override { return film_.width; }
+    int height() const override { return film_.height; }
+    double filmDiagonal() const override { return diagonal_; }
+    ScreenWindow screen() const override;
+
+    const ParameterSet& parameters() const override { return camera_.parameters; }
+    float number(std::string_view name, float otherwise, float least, float most) const override {
+        return context_.number(camera_.parameters, name, otherwise, least, most);
+    }
+    int integer(std::string_view name, int otherwise, int least, int most) const override {
+        return context_.integer(camera_.parameters, name, otherwise, least, most);
+    }
+    std::string path(const std::string& name) const override { return context_.path(name); }
+    void warn(const std::string& text) override { context_.warn(camera_.where, owner() + ": " + text); }
+    [[noreturn]] void fail(const std::string& text, ErrorKind kind) const override {
+        context_.fail(camera_.where, owner() + ": " + text, kind);
+    }
+    std::string owner() const { return ownerName("camera", camera_.type); }
+
+private:
+    const CameraEntity& camera_;
+    const FilmSettings& film_;
+    double diagonal_;
+    bool ownAspect_;
+    BuildContext& context_;
+};
+
+ScreenWindow SceneCameraInput::screen() const {
+    const float shape = float(film_.width) / float(film_.height);
+    const float given = number("frameaspectratio", shape, 1e-6f, 1e6f);
+    const double aspect = ownAspect_ ? shape : given;
     const double x = aspect > 1 ? aspect : 1, y = aspect > 1 ? 1 : 1 / aspect;
-    screen[0] = -x, screen[1] = x, screen[2] = -y, screen[3] = y;
-    const Parameter* window = camera.parameters.find("float", "screenwindow");
-    if (!window) return;
+    const Parameter* window = camera_.parameters.find("float", "screenwindow");
+    if (!window) return {-x, x, -y, y};
     const std::vector<float>& v = window->floats();
-    if (v.size() != 4) context.fail(window->where, fmt::format("screenwindow needs 4 numbers, {} are given", v.size()));
+    if (v.size() != 4)
+        context_.fail(window->where, fmt::format("screenwindow needs 4 numbers, {} are given", v.size()));
     for (const float s : v)
-        if (!(s >= -kMost && s <= kMost)) context.fail(window->where, "a number of screenwindow is too large");
-    if (v[0] == v[1] || v[2] == v[3]) context.fail(window->where, "screenwindow is empty");
-    std::copy(v.begin(), v.end(), screen);
+        if (!(s >= -kMost && s <= kMost)) context_.fail(window->where, "a number of screenwindow is too large");
+    if (v[0] == v[1] || v[2] == v[3]) context_.fail(window->where, "screenwindow is empty");
+    return {v[0], v[1], v[2], v[3]};
 }
 
 Matrix4 inverse(const Matrix4& m, SourcePosition where, const BuildContext& context) {
@@ -43,6 +67,20 @@ Matrix4 inverse(const Matrix4& m, SourcePosition where, const BuildContext& cont
     if (!invert(m, out)) context.fail(where, "the transformation of the camera has no inverse");
     if (!isUsable(toRecord(out))) context.fail(where, "the camera is too far away, too large or too small to see");
     return out;
+}
+
+CameraPlacement readPlacement(const SceneDescription& scene, Shutter shutter, const BuildContext& context) {
+    const CameraEntity& camera = scene.camera;
+    CameraPlacement p;
+    p.shutterOpen = shutter.open;
+    p.shutterClose = shutter.close;
+    p.transformTimes[0] = scene.transformTimes[0];
+    p.transformTimes[1] = scene.transformTimes[1];
+    // Times without a span say nothing of when things move; nothing may divide by it.
+    if (!(p.transformTimes[1] > p.transformTimes[0])) p.transformTimes[1] = p.transformTimes[0] + 1;
+    p.worldFromCameraStart = inverse(camera.cameraFromWorld.start, camera.where, context);
+    p.worldFromCameraEnd = inverse(camera.cameraFromWorld.end, camera.where, context);
+    return p;
 }
 
 }  // namespace
@@ -55,33 +93,20 @@ Shutter readShutter(const CameraEntity& camera, const BuildContext& context) {
     return {open, close};
 }
 
-CameraSettings readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film,
-                          const BuildOptions& options, BuildContext& context) {
+Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, const BuildOptions& options,
+                  BuildContext& context) {
     const CameraEntity& camera = scene.camera;
-    const ParameterSet& p = camera.parameters;
-    CameraSettings s;
-    s.kind = readKind(camera, context);
-    s.width = film.width;
-    s.height = film.height;
-    if (s.kind == CameraKind::Perspective) s.fovDegrees = context.number(p, "fov", 90, 1e-4f, 179.99f);
     const double askedWidth = scene.film.parameters.integer("xresolution", 1280),
                  askedHeight = scene.film.parameters.integer("yresolution", 720);
-    const bool otherAspect =
+    const bool ownAspect =
         options.width > 0 && options.height > 0 && askedWidth * options.height != askedHeight * options.width;
-    readScreen(camera, film, otherAspect, context, s.screen);
-    s.lensRadius = context.number(p, "lensradius", 0, 0, kMost);
-    s.focalDistance = context.number(p, "focaldistance", 1e6f, 1e-30f, kFarthest);
-    s.shutterOpen = shutter.open;
-    s.shutterClose = shutter.close;
-    s.transformTimes[0] = scene.transformTimes[0];
-    s.transformTimes[1] = scene.transformTimes[1];
-    // Times without a span say nothing of when things move; nothing may divide by it.
-    if (!(s.transformTimes[1] > s.transformTimes[0])) s.transformTimes[1] = s.transformTimes[0] + 1;
-    s.worldFromCameraStart = inverse(camera.cameraFromWorld.start, camera.where, context);
-    s.worldFromCameraEnd = inverse(camera.cameraFromWorld.end, camera.where, context);
-    if (camera.type != "perspective" && camera.type != "orthographic") p.markAllUsed();
-    context.warnUnused(p, ownerName("camera", camera.type));
-    return s;
+    SceneCameraInput input(scene, film, ownAspect, context);
+    CameraModel model;
+    if (!makeCamera(camera.type, input, model))
+        context.fail(camera.where,
+                     "unknown camera " + quote(camera.type) + suggestion(camera.type, pluginNames(CameraTypes{})));
+    context.warnUnused(camera.parameters, input.owner());
+    return Camera(std::move(model), readPlacement(scene, shutter, context));
 }
 
 }  // namespace penumbra::builder
