@@ -6,7 +6,7 @@ set -eu
 # docs/HACKING.md says what each of these is for.
 packages="g++ binutils cmake ninja-build ccache
     libembree-dev libtbb-dev libopenexr-dev libopenimageio-dev libopencolorio-dev zlib1g-dev libssl-dev
-    libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev"
+    libutf8proc-dev libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev"
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
     echo "setup: not a Debian system; nothing installed. The build needs the equivalents of:" $packages >&2

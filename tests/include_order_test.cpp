@@ -61,6 +61,7 @@ const std::vector<ThirdParty>& thirdParties() {
         {"OpenEXR", std::regex("OpenEXR/.*|Imath/.*|Imf.*|Imath.*|half\\.h|Iex.*"), "core/image/exr"},
         {"OpenColorIO", std::regex("OpenColorIO/.*"), "core/color/display"},
         {"OpenSSL", std::regex("openssl/.*"), "core/base/sha256"},
+        {"utf8proc", std::regex("utf8proc\\.h"), "core/base/unicode"},
         {"zlib", std::regex("zlib\\.h"), "core/base/byte_reader"},
         {"nlohmann-json", std::regex("nlohmann/.*"), std::nullopt},
         {"CLI11", std::regex("CLI/.*"), std::nullopt},

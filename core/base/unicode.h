@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-/// The text in Normalization Form C. REQUIRES: valid UTF-8.
+/// The text in Normalization Form C; Error(BadData) where it is not UTF-8.
 std::string composed(std::string_view utf8);
 
 }  // namespace penumbra
