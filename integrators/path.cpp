@@ -17,10 +17,13 @@ constexpr ParameterInfo kParameters[] = {
 const PluginInfo PathIntegrator::kInfo{"path", "path tracing with next-event estimation and multiple importance sampling (default)",
                                        kParameters};
 std::unique_ptr<Integrator> PathIntegrator::make(const IntegratorSettings& s, const Scene& scene) {
-    IntegratorSettings pilot = s;
-    pilot.roulette = RouletteRule::Off;
-    pilot.maxDepth = std::min(s.maxDepth, 2);
-    const float typical = typicalRadiance(scene, ShaderIntegrator<PathShader>(pilot, 0.f));
+    float typical = 0.f;
+    if (s.roulette == RouletteRule::Late && s.maxDepth > 1) {   // else there is no roulette to be played
+        IntegratorSettings pilot = s;
+        pilot.roulette = RouletteRule::Off;
+        pilot.maxDepth = 2;
+        typical = typicalRadiance(scene, ShaderIntegrator<PathShader>(pilot, 0.f));
+    }
     return std::make_unique<ShaderIntegrator<PathShader>>(s, typical);
 }
 

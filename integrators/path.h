@@ -172,7 +172,7 @@ private:
         const Mask<F> infinite = light.distance == F(kInfinity);
         absorb(scene, mediumOf(at, g, light.wi), select(infinite, F(0.f), light.distance), value);
         wanted = wanted & !isBlack(value);
-        if (any(gathered > F(0.f))) wanted = wanted & playShadowRoulette(numbers, gathered, value);
+        wanted = wanted & playShadowRoulette(numbers, gathered, value);
         // The light's own surface must not shadow its points: stop short by what rounding may have moved them.
         const F slack = light.distance * F(0x1p-16f) + maxComponent(abs(at.p)) * F(0x1p-20f);
         const F far = select(infinite, light.distance, light.distance - slack);
@@ -208,18 +208,24 @@ private:
             const F most = select(next.depth < UInt<F>(16u), F(1.f), F(0.95f));
             survival = min(sqrt(F(kFaint) * carried / (F(kDark) + next.firstLight)), most);
         }
-        const Mask<F> lives = (numbers.get1(Dim::Roulette) < survival) | !plays | broken;
-        next.throughput = select(plays & lives, next.throughput * (F(1.f) / survival), next.throughput);
-        return lives;
+        return draw(plays, broken, numbers.get1(Dim::Roulette), survival, next.throughput);
     }
 
     /// Late only: a shadow ray whose light would add less than a quarter to what the path has gathered is traced in proportion.
     template <class F>
     Mask<F> playShadowRoulette(const Sampler::Numbers<F>& numbers, F gathered, Spectrum<F>& value) const {
+        if (none(gathered > F(0.f))) return Mask<F>(true);
         const F chance = F(4.f * perTypical_) * maxComponent(value) / max(gathered, F(1e-20f));
         const Mask<F> plays = (chance < F(1.f)) & (gathered > F(0.f));
         if (none(plays)) return Mask<F>(true);
-        const Mask<F> lives = (numbers.get1(Dim::ShadowRoulette) < chance) | !plays;
+        return draw(plays, Mask<F>(false), numbers.get1(Dim::ShadowRoulette), chance, value);
+    }
+
+    /// One game of roulette: true where the lane lives, which it does whatever u is unless it plays and is not spared. What
+    /// those that played stand for grows by as much as they are fewer.
+    template <class F>
+    static Mask<F> draw(const Mask<F>& plays, const Mask<F>& spared, F u, F chance, Spectrum<F>& value) {
+        const Mask<F> lives = (u < chance) | !plays | spared;
         value = select(plays & lives, value * (F(1.f) / chance), value);
         return lives;
     }

@@ -29,12 +29,5 @@ void readMesh(const std::string& bytes, Warnings& warnings) {
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace penumbra;
-    Warnings warnings;
-    try {
-        readMesh(std::string(reinterpret_cast<const char*>(data), size), warnings);
-    } catch (const Error& e) {
-        fuzz::requireGoodError(e);
-    }
-    fuzz::requireGoodWarnings(warnings);
-    return 0;
+    return fuzz::execute([&](Warnings& warnings) { readMesh(std::string(reinterpret_cast<const char*>(data), size), warnings); });
 }

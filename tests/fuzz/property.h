@@ -38,4 +38,17 @@ inline void requireGoodError(const Error& e) {
     requireGoodMessage(e.what());
 }
 
+/// Runs f(warnings) as one execution of a target; what goes wrong and what is warned of has to be good.
+template <class Function>
+int execute(Function&& f) {
+    Warnings warnings;
+    try {
+        f(warnings);
+    } catch (const Error& e) {
+        requireGoodError(e);
+    }
+    requireGoodWarnings(warnings);
+    return 0;
+}
+
 }  // namespace penumbra::fuzz

@@ -39,12 +39,5 @@ void readAndBuild(std::string_view text, Warnings& warnings) {
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace penumbra;
-    Warnings warnings;
-    try {
-        readAndBuild({reinterpret_cast<const char*>(data), size}, warnings);
-    } catch (const Error& e) {
-        fuzz::requireGoodError(e);
-    }
-    fuzz::requireGoodWarnings(warnings);
-    return 0;
+    return fuzz::execute([&](Warnings& warnings) { readAndBuild({reinterpret_cast<const char*>(data), size}, warnings); });
 }
