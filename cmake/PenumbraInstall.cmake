@@ -1,9 +1,10 @@
 # Installation: the program, and the package that find_package(Penumbra CONFIG) finds.
 #
-# The public interface is small: app/batch and the headers that it shows. None of them includes core/math/lanes.h, whose
-# layout depends on the architecture flags, so a program that uses the package may be compiled for any x86-64.
-# tests/consumer includes every header of this list.
+# The public interface is small: Renderer and what it shows. Nothing of it includes core/math/lanes.h, whose layout depends
+# on the architecture flags, so a program that uses the package may be compiled for any x86-64. tests/consumer compiles
+# every header of this list alone.
 set(PENUMBRA_PUBLIC_HEADERS
+    app/batch/renderer.h
     core/base/error.h)
 
 include(CMakePackageConfigHelpers)
@@ -53,6 +54,7 @@ if(PENUMBRA_TESTS AND NOT PENUMBRA_SANITIZE)
     add_test(NAME InstalledPackage COMMAND "${CMAKE_COMMAND}"
         "-DBINARY_DIR=${PROJECT_BINARY_DIR}" "-DCONSUMER=${PROJECT_SOURCE_DIR}/tests/consumer"
         "-DGENERATOR=${CMAKE_GENERATOR}" "-DCOMPILER=${CMAKE_CXX_COMPILER}" "-DVERSION=${PROJECT_VERSION}"
-        "-DHEADERS=${headers}" "-DBINDIR=${CMAKE_INSTALL_BINDIR}" -P "${PROJECT_SOURCE_DIR}/cmake/TestInstalledPackage.cmake")
+        "-DHEADERS=${headers}" "-DSCENE=${PROJECT_SOURCE_DIR}/scenes/gallery/textures.pbrt"
+        "-DBINDIR=${CMAKE_INSTALL_BINDIR}" -P "${PROJECT_SOURCE_DIR}/cmake/TestInstalledPackage.cmake")
     set_tests_properties(InstalledPackage PROPERTIES TIMEOUT 300)
 endif()
