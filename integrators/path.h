@@ -117,7 +117,8 @@ private:
                      const UInt<F>& material, const Mask<F>& goesOn) const {
         const Scene& scene = step.scene;
         const F coneWidth = g.coneWidth + coneSpread<F>(scene) * hit.t;
-        const ShadingContext<F> context{scene.textures, scene.materials.tableData(), {at.uv, coneWidth * at.uvPerLength, at.p}};
+        const ShadingContext<F> context{scene.textures, scene.materials.tableData(),
+                                        {at.uv, coneWidth * at.uvPerLength, at.p, at.ng, coneWidth}};
         const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), context);
         const Vec3<F> wo = at.frame.toLocal(-g.direction);
 

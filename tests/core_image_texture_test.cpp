@@ -1,134 +1,15 @@
 // Textures against values worked out by hand on small images made here, against their own definitions at high
 // resolution, and one lane against eight, bit for bit.
-#include "core/image/texture.h"
-#include "core/image/texture_registry.h"
-
-#include <gtest/gtest.h>
+#include "tests/texture_fixture.h"
 
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <map>
 #include <random>
 
 namespace penumbra {
 namespace {
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// Images and textures by name instead of files and a scene.
-class Input : public TextureInput {
-public:
-    explicit Input(TextureKind kind, SpectrumRole role = SpectrumRole::Albedo) : kind_(kind), role_(role) {}
-
-    Input& text(const std::string& name, const std::string& value) {
-        return parameter("string", name, std::vector<std::string>{value});
-    }
-    Input& number(const std::string& name, float value) { return parameter("float", name, std::vector<float>{value}); }
-    Input& flag(const std::string& name, bool value) {
-        return parameter("bool", name, std::vector<std::uint8_t>{std::uint8_t(value)});
-    }
-    Input& integer(const std::string& name, int value) {
-        return parameter("integer", name, std::vector<std::int32_t>{value});
-    }
-    Input& operand(const std::string& name, const TextureOperand& value) {
-        operands_[name] = value;
-        return *this;
-    }
-    Input& file(const std::string& name, const Image& image) {
-        text("filename", name);
-        files_[name] = image;
-        return *this;
-    }
-
-    TextureKind kind() const override { return kind_; }
-    SpectrumRole role() const override { return role_; }
-    const ColorSpace& filmColorSpace() const override { return *film; }
-    TextureOperand spectrum(std::string_view name, Rgb otherwise) override {
-        return find(name, TextureOperand::color(otherwise));
-    }
-    TextureOperand scalar(std::string_view name, float otherwise) override {
-        return find(name, TextureOperand::number(otherwise));
-    }
-    std::string path(std::string_view name) override {
-        const std::string text = parameters_.text(name, "");
-        if (text.empty()) fail("no " + std::string(name));
-        return text;
-    }
-    Image image(const std::string& path, TransferFunction) override {
-        ++reads;
-        const auto found = files_.find(path);
-        if (found == files_.end()) throw Error(ErrorKind::MissingInput, path + ": cannot be opened");
-        return found->second;
-    }
-    const ParameterSet& parameters() const override { return parameters_; }
-    std::string where() const override { return "test.pbrt:1:1: texture 'tested'"; }
-    void warn(const std::string& text) override { warnings.push_back(text); }
-    [[noreturn]] void fail(const std::string& text) override { throw Error(ErrorKind::BadData, where() + ": " + text); }
-
-    const ColorSpace* film = &srgbColorSpace();
-    std::vector<std::string> warnings;
-    int reads = 0;
-
-private:
-    template <class T>
-    Input& parameter(const std::string& type, const std::string& name, const T& values) {
-        Parameter p;
-        p.type = type;
-        p.name = name;
-        p.values = values;
-        parameters_.add(p);
-        return *this;
-    }
-    TextureOperand find(std::string_view name, const TextureOperand& otherwise) const {
-        const auto found = operands_.find(std::string(name));
-        return found == operands_.end() ? otherwise : found->second;
-    }
-    TextureKind kind_;
-    SpectrumRole role_;
-    ParameterSet parameters_;
-    std::map<std::string, TextureOperand> operands_;
-    std::map<std::string, Image> files_;
-};
-
-Input numberInput() {
-    return Input(TextureKind::Float);
-}
-Input colorInput(SpectrumRole role = SpectrumRole::Albedo) {
-    return Input(TextureKind::Spectrum, role);
-}
-
-template <class F>
-TextureContext<F> at(F u, F v, F footprint = F(0.f)) {
-    return {{u, v}, footprint, {F(0.f), F(0.f), F(0.f)}};
-}
-
-/// A scene's table with one texture, which is looked up.
-struct One {
-    Textures textures;
-    TextureOperand made;
-    One(const char* className, Input input) { made = textures.add(className, input); }
-    float number(float u, float v, float footprint = 0) const {
-        return textures.scalar<float>(made.texture, at(u, v, footprint));
-    }
-    Spectrum<float> color(float u, float v, float footprint = 0) const {
-        return textures.spectrum<float>(made.texture, at(u, v, footprint));
-    }
-};
-
-void expectColor(const Spectrum<float>& c, float r, float g, float b, float tolerance = 0) {
-    EXPECT_NEAR(c.r, r, tolerance);
-    EXPECT_NEAR(c.g, g, tolerance);
-    EXPECT_NEAR(c.b, b, tolerance);
-}
-
-Image grey(int width, int height, std::vector<float> values) {
-    return Image(width, height, 1, std::move(values));
-}
-Image bytes(int width, int height, int channels, std::vector<std::uint8_t> values,
-            TransferFunction encoding = TransferFunction::linear()) {
-    return Image(width, height, channels, std::move(values), encoding);
-}
+using namespace test;
 
 /// 4 x 2; the top row is 1 2 3 4, the bottom row 5 6 7 8.
 Image numbered() {
@@ -668,14 +549,14 @@ TEST(CoreImageTexture, ErrorsAndWarningsSayWhere) {
     contains(message("imagemap", numberInput().file("a", numbered()).text("encoding", "gama 2")), "'gama 2'");
     contains(message("imagemap", numberInput().file("a", numbered()).text("mapping", "plannar")), "'planar'");
     contains(message("checkerboard", numberInput().integer("dimension", 4)), "dimension 4");
+    contains(message("checkerboard", numberInput().text("mapping", "planar").placed(scaling(1, 0, 1))), "no inverse");
+    contains(message("checkerboard", numberInput().integer("dimension", 3).placed(scaling(1, 0, 1))), "no inverse");
     const auto warning = [&](const char* className, Input input) {
         textures.add(className, input);
         EXPECT_EQ(input.warnings.size(), 1u);
         return input.warnings.empty() ? std::string() : input.warnings[0];
     };
     contains(warning("imagemap", numberInput().file("a", numbered()).text("filter", "ewa")), "trilinear");
-    contains(warning("checkerboard", numberInput().text("mapping", "planar")), "uv");
-    contains(warning("checkerboard", numberInput().integer("dimension", 3)), "gets 2");
     EXPECT_TRUE(Textures::knows("imagemap"));
     EXPECT_FALSE(Textures::knows("marble"));
     EXPECT_EQ(pluginNames(TextureTypes{}), (std::vector<std::string>{"constant", "imagemap", "scale", "checkerboard"}));
@@ -729,6 +610,10 @@ struct Zoo {
             add("scale", colorInput().operand("tex", any(colors)).operand("scale", any(numbers)), colors);
             add("checkerboard", numberInput().operand("tex1", any(numbers)).number("uscale", 7), numbers);
             add("checkerboard", colorInput().operand("tex1", any(colors)).operand("tex2", any(colors)), colors);
+            const char* const mappings[] = {"planar", "spherical", "cylindrical"};
+            const auto turned = [&](Input input) { return input.placed(rotation(double(17 * i), 1, 2, 3)); };
+            add("checkerboard", turned(numberInput().text("mapping", mappings[i % 3])), numbers);
+            add("checkerboard", turned(colorInput().operand("tex2", any(colors)).integer("dimension", 3)), colors);
         }
     }
     void add(const char* className, Input input, std::vector<std::uint32_t>& ids) {
@@ -764,12 +649,24 @@ TEST(CoreImageTexture, OneLaneAndEightGiveTheSameBits) {
             setLane(color, i, none ? kNoTexture : zoo.colors[which % zoo.colors.size()]);
             setLane(wide.uv.x, i, coordinate());
             setLane(wide.uv.y, i, coordinate());
-            setLane(wide.footprint, i, std::exp2(float(random() % 1024) / 64 - 12) * float(random() % 4 != 0));
+            const auto width = [&] { return std::exp2(float(random() % 1024) / 64 - 12) * float(random() % 4 != 0); };
+            setLane(wide.footprint, i, width());
+            setLane(wide.width, i, width());
+            setLane(wide.p.x, i, coordinate());
+            setLane(wide.p.y, i, coordinate());
+            setLane(wide.p.z, i, coordinate());
+            const float tilt = float(random()) * 0x1p-32f;
+            setLane(wide.n.x, i, std::sin(tilt));
+            setLane(wide.n.z, i, std::cos(tilt));
         }
         const Lanes8f x = zoo.textures.scalar<Lanes8f>(number, wide);
         const Spectrum<Lanes8f> c = zoo.textures.spectrum<Lanes8f>(color, wide);
         for (int i = 0; i < 8; ++i) {
-            const TextureContext<float> one = at(lane(wide.uv.x, i), lane(wide.uv.y, i), lane(wide.footprint, i));
+            const TextureContext<float> one{{lane(wide.uv.x, i), lane(wide.uv.y, i)},
+                                            lane(wide.footprint, i),
+                                            lane(wide.p, i),
+                                            lane(wide.n, i),
+                                            lane(wide.width, i)};
             const float x1 = zoo.textures.scalar<float>(lane(number, i), one);
             const Spectrum<float> c1 = zoo.textures.spectrum<float>(lane(color, i), one), c8 = lane(c, i);
             ASSERT_EQ(bitsOf(lane(x, i)), bitsOf(x1))

@@ -177,8 +177,9 @@ struct MaterialsUnderTest {
     template <class F>
     typename M::template Bsdf<F> closure(const UInt<F>& index) const {
         const UInt<F> id = index + UInt<F>(table.firstId(kTagOf<M, MaterialTypes>));
+        const F zero(0.f);
         const ShadingContext<F> context{
-            textures, table.tableData(), {{F(0.f), F(0.f)}, F(0.f), {F(0.f), F(0.f), F(0.f)}}};
+            textures, table.tableData(), {{zero, zero}, zero, {zero, zero, zero}, {zero, zero, F(1.f)}, zero}};
         return M::bsdf(table.records<M, F>(id), context);
     }
     /// The one material, for lanes.

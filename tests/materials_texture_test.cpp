@@ -1,8 +1,7 @@
 // Materials whose reflectance or roughness comes from a texture behave like those with the same constant; checked for
 // every registered material that lists such a parameter.
 #include "tests/materials_fixture.h"
-
-#include <gtest/gtest.h>
+#include "tests/texture_fixture.h"
 
 namespace penumbra::test {
 namespace {
@@ -11,28 +10,12 @@ constexpr Rgb kInside{0.3f, 0.5f, 0.7f};
 constexpr float kInsideNumber = 0.3f;
 
 /// A checkerboard: kInside (or kInsideNumber) where 0 <= u, v < 1, white beside.
-class BoardInput final : public TextureInput {
-public:
-    explicit BoardInput(TextureKind kind) : kind_(kind) {}
-    TextureKind kind() const override { return kind_; }
-    SpectrumRole role() const override { return SpectrumRole::Albedo; }
-    const ColorSpace& filmColorSpace() const override { return srgbColorSpace(); }
-    TextureOperand spectrum(std::string_view name, Rgb) override {
-        return TextureOperand::color(name == "tex1" ? kInside : Rgb{1.f, 1.f, 1.f});
-    }
-    TextureOperand scalar(std::string_view name, float otherwise) override {
-        return TextureOperand::number(name == "tex1" ? kInsideNumber : name == "tex2" ? 1.f : otherwise);
-    }
-    std::string path(std::string_view) override { return {}; }
-    const ParameterSet& parameters() const override { return parameters_; }
-    std::string where() const override { return "a test"; }
-    void warn(const std::string&) override {}
-    [[noreturn]] void fail(const std::string& text) override { throw Error(ErrorKind::BadData, text); }
-
-private:
-    TextureKind kind_;
-    ParameterSet parameters_;
-};
+Input boardInput(TextureKind kind) {
+    const bool isNumber = kind == TextureKind::Float;
+    return Input(kind)
+        .operand("tex1", isNumber ? TextureOperand::number(kInsideNumber) : TextureOperand::color(kInside))
+        .operand("tex2", TextureOperand::number(1));
+}
 
 /// Material 0 has the constant, material 1 the texture of the same value.
 template <class M>
@@ -41,8 +24,7 @@ struct Pair {
     Textures textures;
 
     Pair(Settings settings, const Setting& constant) {
-        const TextureKind kind = constant.type == "rgb" ? TextureKind::Spectrum : TextureKind::Float;
-        BoardInput board(kind);
+        Input board = boardInput(constant.type == "rgb" ? TextureKind::Spectrum : TextureKind::Float);
         const TextureOperand texture = textures.add("checkerboard", board);
         settings.push_back(constant);
         PlainMaterialInput plain(settings, table.tables()), textured(settings, table.tables());
@@ -53,8 +35,7 @@ struct Pair {
     template <class F>
     typename M::template Bsdf<F> closure(const UInt<F>& index) const {
         const UInt<F> id = index + UInt<F>(table.firstId(kTagOf<M, MaterialTypes>));
-        const ShadingContext<F> context{
-            textures, table.tableData(), {{F(0.5f), F(0.5f)}, F(0.f), {F(0.f), F(0.f), F(0.f)}}};
+        const ShadingContext<F> context{textures, table.tableData(), at(F(0.5f), F(0.5f))};
         return M::bsdf(table.records<M, F>(id), context);
     }
 };

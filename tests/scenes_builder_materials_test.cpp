@@ -229,6 +229,19 @@ TEST(TextureLibrary, ClassesThatAreNotThereYetWarnOnce) {
     EXPECT_TRUE(built.warnsOf("test.pbrt:3:1: the texture class 'mix' is not there yet"));
 }
 
+TEST(TextureLibrary, ATextureLiesInTheSpaceOfItsDirective) {
+    const BuiltScene built = buildWorld(
+        kLight + "Translate 5 0 0\nTexture \"t\" \"spectrum\" \"checkerboard\" \"integer dimension\" 3\n"
+        "Translate 1 0 0\nMaterial \"diffuse\" \"texture reflectance\" \"t\" Shape \"sphere\"");
+    ASSERT_EQ(built.scene.textures.count(), 1u);
+    const auto valueAt = [&](float x) {
+        return built.scene.textures.spectrum<float>(0, {{0, 0}, 0, {x, 0.5f, 0.5f}, {0, 0, 1}, 0}).r;
+    };
+    EXPECT_EQ(valueAt(5.5f), 1);
+    EXPECT_EQ(valueAt(4.5f), 0);
+    EXPECT_TRUE(built.warnings.all().empty());
+}
+
 TEST(TextureLibrary, Errors) {
     const std::string use = "\nMaterial \"diffuse\" \"texture reflectance\" \"t\"";
     EXPECT_EQ(materialError("Texture \"u\" \"spectrum\" \"constant\"" + use),

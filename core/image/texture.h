@@ -1,10 +1,11 @@
 // Textures: functions of the surface that materials look up at a hit, over lanes; and how the scene's builder makes
 // them.
 //
-// Conventions: uv as the shape gives them; `footprint` is the full width that the ray's cone covers there, in units of
-// uv (0: a point). The cone of a camera ray is one pixel wide (less at many samples a pixel), so the footprint stands
-// for max(|du/dx|, |dv/dx|, |du/dy|, |dv/dy|) in the formulas of the pbrt format: the w of its image maps is twice the
-// footprint, and its checkerboard spreads over 1.5 footprints to either side.
+// Conventions: uv as the shape gives them, p and n in world space; `width` is how much of the surface the ray's cone
+// covers across, in world space, and `footprint` the same in units of uv (0: a point). The cone of a camera ray is one
+// pixel wide (less at many samples a pixel), so the footprint stands for max(|du/dx|, |dv/dx|, |du/dy|, |dv/dy|) in the
+// formulas of the pbrt format: the w of its image maps is twice the footprint, and its checkerboard spreads over 1.5
+// footprints to either side.
 // Texture ids index one table for the whole scene. A texture has a kind, and one of kind Spectrum a role; one texture
 // of a scene file that is used under two roles is added twice (and shares its image). kNoTexture means "no texture".
 // Spectra are linear RGB in the film's colour space. Where the role is Albedo, spectrum() gives values in [0, 1].
@@ -18,6 +19,7 @@
 #include "core/base/parameters.h"
 #include "core/color/spectrum_parameter.h"
 #include "core/image/image.h"
+#include "core/math/matrix.h"
 #include "core/math/spectrum.h"
 #include "core/math/vector.h"
 
@@ -34,7 +36,9 @@ template <class F>
 struct TextureContext {
     Vec2<F> uv;
     F footprint;
-    Vec3<F> p;  ///< world-space point, for mappings that are not uv
+    Vec3<F> p;
+    Vec3<F> n;  ///< unit geometric normal, of either side
+    F width;
 };
 
 enum class TextureKind { Float, Spectrum };
@@ -57,6 +61,7 @@ public:
     virtual TextureKind kind() const = 0;
     virtual SpectrumRole role() const = 0;  ///< where kind() is Spectrum
     virtual const ColorSpace& filmColorSpace() const = 0;
+    virtual const Matrix4& textureToWorld() const = 0;  ///< the transformation in force at the texture's directive
     /// "spectrum" texture, or any spectrum, under this texture's role.
     virtual TextureOperand spectrum(std::string_view name, Rgb otherwise) = 0;
     /// "float" texture or float.

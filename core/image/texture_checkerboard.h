@@ -1,9 +1,9 @@
-// checkerboard: squares of side 1 in the plane of (s, t), tex1 where floor(s) + floor(t) is even and tex2 where it is
-// odd.
+// checkerboard: squares of side 1 in the plane of (s, t), or cubes in the texture's space: tex1 where the sum of the
+// coordinates' floors is even and tex2 where it is odd.
 //
 // It is filtered exactly by a tent along each axis that reaches 1.5 footprints to either side, as the pbrt format does.
 // With the signs +1 and -1 for the two sorts of stripes along an axis, the filtered board is the product of the
-// filtered stripes of s and of t, because tent and board are both products.
+// filtered stripes of all axes, because tent and board are both products.
 #pragma once
 
 #include "core/image/texture_mapping.h"
@@ -12,36 +12,32 @@
 namespace penumbra {
 
 struct CheckerboardTexture {
-    static constexpr ParameterInfo kParameters[] = {
-        {"spectrum or float texture", "tex1", "1", "the squares where floor(s) + floor(t) is even"},
-        {"spectrum or float texture", "tex2", "0", "the other squares"},
-        {"integer", "dimension", "2", "of the board; 2"},
-        TextureMapping::kMapping,
-        TextureMapping::kUScale,
-        TextureMapping::kVScale,
-        TextureMapping::kUDelta,
-        TextureMapping::kVDelta,
-    };
-    static constexpr PluginInfo kInfo{"checkerboard", "squares of two textures", kParameters};
+    static constexpr auto kParameters = TextureMapping::parameters({
+        {"spectrum or float texture", "tex1", "1", "the cells where the sum of the coordinates' floors is even"},
+        {"spectrum or float texture", "tex2", "0", "the other cells"},
+        {"integer", "dimension", "2", "of the board: 2 or 3"},
+    });
+    static constexpr PluginInfo kInfo{"checkerboard", "squares or cubes of two textures", kParameters};
 
     static TextureOperand make(TextureInput& input, TextureTables& tables) {
         CheckerboardTexture t;
-        t.mapping = TextureMapping::make(input);
         t.even = input.value("tex1", 1.f);
         t.odd = input.value("tex2", 0.f);
         const int dimension = input.parameters().integer("dimension", 2);
-        if (dimension == 3) {
-            input.warn("a checkerboard of 3 dimensions is not there yet; it gets 2");
-        } else if (dimension != 2) {
+        if (dimension != 2 && dimension != 3)
             input.fail("dimension " + std::to_string(dimension) + " of a checkerboard is neither 2 nor 3");
+        t.isSolid = dimension == 3;
+        if (t.isSolid) {
+            t.space = TextureSpace::make(input);
+        } else {
+            t.mapping = TextureMapping::make(input);
         }
         return tables.append(t, {t.even, t.odd}, input);
     }
 
     template <class V, class F>
     V evaluate(const TextureContext<F>& at, const TextureTables& tables) const {
-        const MappedPoint<F> m = mapping.map(at);
-        const F board = stripes(m.s, F(1.5f) * m.widthS) * stripes(m.t, F(1.5f) * m.widthT);
+        const F board = isSolid ? cubes(at) : squares(at);
         const F weight = clamp(F(0.5f) + F(0.5f) * board, F(0.f), F(1.f));  // NaN becomes 0
         const Mask<F> needsEven = weight > F(0.f), needsOdd = weight < F(1.f);
         const V a = any(needsEven) ? tables.value<V>(even, at) : V{};
@@ -66,10 +62,22 @@ struct CheckerboardTexture {
         return select(r <= F(0.5f), narrow, clamp(wide, F(-1.f), F(1.f)));
     }
 
-    TextureMapping mapping;
+    bool isSolid = false;
+    TextureMapping mapping;  ///< of squares
+    TextureSpace space;      ///< of cubes
     TextureOperand even, odd;
 
 private:
+    template <class F>
+    F squares(const TextureContext<F>& at) const {
+        const MappedPoint<F> m = mapping.map(at);
+        return stripes(m.s, F(1.5f) * m.widthS) * stripes(m.t, F(1.5f) * m.widthT);
+    }
+    template <class F>
+    F cubes(const TextureContext<F>& at) const {
+        const Vec3<F> p = space.point(at), reach = space.widths(at) * F(1.5f);
+        return stripes(p.x, reach.x) * stripes(p.y, reach.y) * stripes(p.z, reach.z);
+    }
     /// +1 where floor(x) is even, -1 where it is odd.
     template <class F>
     static F sign(F x) {

@@ -11,7 +11,7 @@
 namespace penumbra {
 
 struct ImageTexture {
-    static constexpr ParameterInfo kParameters[] = {
+    static constexpr auto kParameters = TextureMapping::parameters({
         {"string", "filename", "", "EXR, PNG, JPEG, HDR, TIFF, PFM or TGA file"},
         {"string", "filter", "bilinear", "point, bilinear, trilinear; ewa counts as trilinear"},
         {"string", "wrap", "repeat", "beyond the image: repeat, black, clamp, octahedralsphere"},
@@ -19,12 +19,7 @@ struct ImageTexture {
         {"float", "scale", "1", "factor of the texels"},
         {"bool", "invert", "false", "1 minus the value"},
         {"float", "maxanisotropy", "8", "of ewa; not used"},
-        TextureMapping::kMapping,
-        TextureMapping::kUScale,
-        TextureMapping::kVScale,
-        TextureMapping::kUDelta,
-        TextureMapping::kVDelta,
-    };
+    });
     static constexpr PluginInfo kInfo{"imagemap", "an image file laid on the surface", kParameters};
 
     static TextureOperand make(TextureInput& input, TextureTables& tables);

@@ -38,6 +38,7 @@ public:
     TextureKind kind() const override { return role_ ? TextureKind::Spectrum : TextureKind::Float; }
     SpectrumRole role() const override { return role_.value_or(SpectrumRole::Unbounded); }
     const ColorSpace& filmColorSpace() const override { return context_.filmColorSpace(); }
+    const Matrix4& textureToWorld() const override { return texture_.textureToWorld; }
     TextureOperand spectrum(std::string_view name, Rgb otherwise) override {
         if (const Parameter* p = parameters().find("texture", name)) return library_.spectrum(*p, role());
         if (const Parameter* p = BuildContext::findSpectrum(parameters(), name))
