@@ -346,18 +346,22 @@ private:
         const FilmSettings& settings = scene_.film;
         const bool plain = settings.isIdentity();
         for (int i = 0; i < pathCount_; ++i) {
-            Spectrum<float> value{s.r[i], s.g[i], s.b[i]};
-            if (!plain) value = toSensor(settings, value);
-            if (s.sign[i] < 0.f) value = value * -1.f;
+            Spectrum<float> value{s.r[i], s.g[i], s.b[i]}, lost = Spectrum<float>::constant(0.f);
+            if (!plain) {
+                value = toSensor(settings, value);
+                lost = limitSample(value, settings.maxComponent);
+            }
+            if (s.sign[i] < 0.f) {
+                value = value * -1.f;
+                lost = lost * -1.f;
+            }
             if (!film_.add(s.pixel[i], s.sample[i], value, s.sign[i], s.covered[i] != 0)) counts_.addInvalid({s.pixel[i], s.sample[i]});
+            else if (!isBlack(lost)) counts_.clamped.add(lost);
         }
     }
     static Spectrum<float> toSensor(const FilmSettings& f, const Spectrum<float>& c) {
         const auto& m = f.sensorFromFilm;
-        Spectrum<float> s{m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
-        const float largest = maxComponent(s);
-        if (largest > f.maxComponent) s = s * (f.maxComponent / largest);
-        return s;
+        return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
     }
 
     const Scene& scene_;

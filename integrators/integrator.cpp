@@ -10,6 +10,7 @@ void RenderCounts::add(const RenderCounts& o) {
     shadowRays += o.shadowRays;
     groups += o.groups;
     liveLanes += o.liveLanes;
+    clamped.add(o.clamped);
     const std::uint64_t total = invalid + o.invalid;
     for (const InvalidSample& s : o.firstInvalid) addInvalid(s);
     invalid = total;

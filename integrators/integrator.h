@@ -5,6 +5,7 @@
 // Thread safety: render() is const and runs on many threads at once, on different tiles.
 #pragma once
 
+#include "core/film/clamp.h"
 #include "scenes/scene.h"
 
 #include <memory>
@@ -33,6 +34,7 @@ struct RenderCounts {
     std::uint64_t invalid = 0;
     std::vector<InvalidSample> firstInvalid;           ///< at most kMostInvalid, the lowest (pixel, sample) first
     static constexpr std::size_t kMostInvalid = 16;
+    ClampedLight clamped;                              ///< what FilmSettings::maxComponent took from valid samples
 
     void add(const RenderCounts& other);
     void addInvalid(InvalidSample s);

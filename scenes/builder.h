@@ -44,6 +44,7 @@ struct BuildOptions {
     std::optional<Strategy> strategy;
     std::optional<LightSelection> lightSelection;
     bool classicArea = false;  ///< --light-sampling area
+    std::optional<float> clamp;  ///< limit on a sample's components (--clamp) for the film's own; infinity: none
 };
 
 Scene buildScene(SceneDescription description, const BuildOptions& options, Warnings& warnings);

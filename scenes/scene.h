@@ -31,7 +31,7 @@ struct FilmSettings {
     std::string fileName = "penumbra.exr";
     std::string colorSpace = "srgb";
     std::array<float, 9> sensorFromFilm{1, 0, 0, 0, 1, 0, 0, 0, 1};   ///< row by row: white balance times imaging ratio
-    float maxComponent = kInfinity;                                   ///< the film's maxcomponentvalue: a bias
+    float maxComponent = kInfinity;                                   ///< of a sample, which is scaled down to it: a bias
     bool isIdentity() const { return sensorFromFilm == std::array<float, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1} && maxComponent == kInfinity; }
 };
 

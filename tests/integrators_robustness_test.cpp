@@ -103,8 +103,8 @@ TEST(InvalidSamples, AreCountedAndPoisonNothing) {
             EXPECT_EQ(e.samples, 4u);
             EXPECT_EQ(e.alpha, 1);
         }
-        EXPECT_TRUE(std::isnan(job->replay(3, 2, 1).r));
-        EXPECT_EQ(job->replay(12, 2, 1).r, 1);
+        EXPECT_TRUE(std::isnan(job->replay(3, 2, 1).value.r));
+        EXPECT_EQ(job->replay(12, 2, 1).value.r, 1);
     }
     EXPECT_EQ(plain->counts().invalid, 0u);
 }

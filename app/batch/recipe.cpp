@@ -1,5 +1,6 @@
 #include "app/batch/recipe.h"
 
+#include "app/batch/statistics.h"
 #include "core/base/version.h"
 
 #include <fmt/format.h>
@@ -53,6 +54,7 @@ std::string repeatCommand(const RenderOptions& options) {
     if (b.classicArea) add("--light-sampling", lightSamplingName(true));
     if (b.intersection != IntersectionMode::Robust) add("--intersection", intersectionName(b.intersection));
     if (options.replicates != 1) add("--replicates", options.replicates);
+    if (b.clamp) add("--clamp", *b.clamp == kInfinity ? std::string("off") : fmt::format("{}", *b.clamp));
     return command;
 }
 
@@ -68,7 +70,7 @@ std::string recipeJson(const RenderJob& job) {
     const RenderOptions& o = job.options();
     const IntegratorSettings& i = s.integrator;
     const CropWindow& crop = job.film().crop();
-    const nlohmann::ordered_json recipe = {
+    nlohmann::ordered_json recipe = {
         {"schema", 1},
         {"program", std::string("penumbra ") + kVersion},
         {"command", repeatCommand(o)},
@@ -94,6 +96,8 @@ std::string recipeJson(const RenderJob& job) {
         {"invalid_samples", job.counts().invalid},
         {"error", o.replicates == 1 ? "independent-sample estimate" : "spread of replicates"},
     };
+    if (const ClampBias bias = clampBias(job); bias.limit < kInfinity)
+        recipe["clamp"] = {{"limit", bias.limit}, {"samples", bias.samples}, {"mean_lost", bias.meanLost}, {"relative", bias.relative}};
     // A file name need not be UTF-8.
     return recipe.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

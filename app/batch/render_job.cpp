@@ -119,7 +119,7 @@ RenderCounts RenderJob::renderTile(const Tile& tile, const std::atomic<bool>* st
     return counts;
 }
 
-Spectrum<float> RenderJob::replay(int x, int y, std::uint32_t sample, int lanes) const {
+ReplayedSample RenderJob::replay(int x, int y, std::uint32_t sample, int lanes) const {
     const CropWindow& crop = film_.crop();
     if (x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1)
         throw Error(ErrorKind::Usage, "pixel " + std::to_string(x) + "," + std::to_string(y) +
@@ -135,9 +135,13 @@ Spectrum<float> RenderJob::replay(int x, int y, std::uint32_t sample, int lanes)
     Film film(CropWindow{x, y, x + 1, y + 1}, options_.replicates, 1.0);
     RenderCounts counts;
     integrator_->render(scene_, {0, 0, 1, 1}, {sample, sample + 1}, alone, film, counts);
-    if (counts.invalid) return Spectrum<float>::constant(std::numeric_limits<float>::quiet_NaN());
+    if (counts.invalid) return {Spectrum<float>::constant(std::numeric_limits<float>::quiet_NaN()), std::nullopt};
     const PixelEstimate e = film.estimate(0);
-    return {float(e.mean[0]), float(e.mean[1]), float(e.mean[2])};
+    ReplayedSample result{{float(e.mean[0]), float(e.mean[1]), float(e.mean[2])}, std::nullopt};
+    const ClampedLight& lost = counts.clamped;
+    if (lost.samples)
+        result.unlimited = result.value + Spectrum<float>{float(lost.sum(0)), float(lost.sum(1)), float(lost.sum(2))};
+    return result;
 }
 
 }  // namespace penumbra

@@ -18,6 +18,7 @@
 #include "scenes/builder.h"
 
 #include <atomic>
+#include <optional>
 #include <string>
 
 namespace penumbra {
@@ -41,6 +42,12 @@ struct RenderTimes {
     double parse = 0, build = 0, render = 0;  ///< seconds
 };
 
+/// As the film holds it: with the sign of the filter.
+struct ReplayedSample {
+    Spectrum<float> value;                     ///< NaN where the sample is invalid
+    std::optional<Spectrum<float>> unlimited;  ///< what it was before the limit on samples, where that made it smaller
+};
+
 class RenderJob {
 public:
     /// Error(Usage) where a number of the options is outside its range.
@@ -51,9 +58,9 @@ public:
     /// Renders all samples of all pixels. Where `stop` becomes true it returns false within a fraction of a second, and
     /// the film then holds some of the samples only.
     bool run(const std::atomic<bool>* stop = nullptr);
-    /// One sample of one pixel of the whole picture, alone, as the film holds it; `lanes` as in RenderControls. NaN
-    /// where the sample is invalid. Error(Usage) outside the crop window or beyond the samples per pixel.
-    Spectrum<float> replay(int x, int y, std::uint32_t sample, int lanes = 1) const;
+    /// One sample of one pixel of the whole picture, alone; `lanes` as in RenderControls. Error(Usage) outside the crop
+    /// window or beyond the samples per pixel.
+    ReplayedSample replay(int x, int y, std::uint32_t sample, int lanes = 1) const;
 
     const Scene& scene() const { return scene_; }
     const SceneInputs& inputs() const { return inputs_; }

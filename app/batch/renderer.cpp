@@ -107,7 +107,7 @@ Picture Renderer::picture() const {
 void Renderer::write(const std::string& path) const { state_->job.writePicture(path); }
 
 std::array<float, 3> Renderer::sample(int x, int y, std::uint32_t index) const {
-    const Spectrum<float> s = state_->job.replay(x, y, index);
+    const Spectrum<float> s = state_->job.replay(x, y, index).value;
     return {s.r, s.g, s.b};
 }
 

@@ -67,6 +67,30 @@ std::string errorText(const PictureError& error) {
     return text;
 }
 
+ClampBias clampBias(const RenderJob& job) {
+    const Film& film = job.film();
+    const ClampedLight& clamped = job.counts().clamped;
+    ClampBias bias;
+    bias.limit = job.scene().film.maxComponent;
+    bias.samples = clamped.samples;
+    if (!clamped.samples) return bias;
+    double lost = 0, kept = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        bias.meanLost[c] = clamped.sum(c) / double(job.counts().paths) * job.scene().filter.normalization();
+        lost += bias.meanLost[c];
+    }
+    for (std::size_t i = 0; i < film.pixelCount(); ++i)
+        for (const double mean : film.estimate(i).mean)
+            kept += mean / double(film.pixelCount());
+    if (kept + lost > 0) bias.relative = lost / (kept + lost);
+    return bias;
+}
+
+std::string clampText(const ClampBias& bias) {
+    return fmt::format("{} sample{} limited to {}: a bias; on average the picture is too dark by {:.2g} %", bias.samples,
+                       bias.samples == 1 ? "" : "s", bias.limit, 100 * bias.relative);
+}
+
 RenderStatistics statisticsOf(const RenderJob& job) {
     const RenderCounts& c = job.counts();
     const Scene& scene = job.scene();
@@ -82,6 +106,7 @@ RenderStatistics statisticsOf(const RenderJob& job) {
     s.textureBytes = scene.textures.bytes();
     s.peakMemoryBytes = peakMemoryBytes();
     s.error = pictureError(job.film());
+    s.clamp = clampBias(job);
     return s;
 }
 
@@ -100,15 +125,17 @@ std::string statisticsText(const RenderStatistics& s) {
                                        bytesText(double(s.filmBytes)), bytesText(double(s.geometryBytes)),
                                        bytesText(double(s.textureBytes)), bytesText(double(s.peakMemoryBytes))));
     text += line("invalid samples", std::to_string(s.counts.invalid));
+    if (s.clamp.limit < kInfinity) text += line("clamped", clampText(s.clamp));
     text += line("standard error", errorText(s.error));
     return text;
 }
 
 std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
     const auto known = [&](double e) { return s.error.isKnown ? nlohmann::ordered_json(e) : nlohmann::ordered_json(); };
-    const nlohmann::ordered_json json = {
+    const nlohmann::ordered_json recipe = nlohmann::ordered_json::parse(recipeJson(job));
+    nlohmann::ordered_json json = {
         {"schema", 1},
-        {"recipe", nlohmann::ordered_json::parse(recipeJson(job))},
+        {"recipe", recipe},
         {"seconds", {{"parse", s.times.parse}, {"build", s.times.build}, {"render", s.times.render}}},
         {"threads", s.threads},
         {"samples", s.counts.paths},
@@ -128,6 +155,7 @@ std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
           {"relative", known(s.error.relative)},
           {"unknown_pixels", s.error.unknownPixels}}},
     };
+    if (recipe.contains("clamp")) json["bias"] = {{"clamp", recipe["clamp"]}};
     return json.dump();
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/batch/render_job.h"
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -22,6 +23,18 @@ PictureError pictureError(const Film& film);
 /// "1.2 % of the mean".
 std::string errorText(const PictureError& error);
 
+/// What a limit on samples (--clamp, the film's maxcomponentvalue) does to a picture: it becomes too dark.
+struct ClampBias {
+    float limit = kInfinity;                ///< infinity: none, and so no bias
+    std::uint64_t samples = 0;              ///< that were above the limit
+    std::array<double, 3> meanLost{0, 0, 0};  ///< an unbiased estimate of what is missing from the picture's mean, by channel
+    double relative = 0;                    ///< of all channels together, to what the mean would be
+};
+/// REQUIRES: the job has run.
+ClampBias clampBias(const RenderJob& job);
+/// "3 samples limited to 10: on average the picture is too dark by 1.2 %".
+std::string clampText(const ClampBias& bias);
+
 struct RenderStatistics {
     RenderTimes times;
     int threads = 0;
@@ -31,6 +44,7 @@ struct RenderStatistics {
     std::size_t filmBytes = 0, geometryBytes = 0, textureBytes = 0;
     std::uint64_t peakMemoryBytes = 0;  ///< of the process so far
     PictureError error;
+    ClampBias clamp;
 };
 /// REQUIRES: the job has run.
 RenderStatistics statisticsOf(const RenderJob& job);

@@ -84,6 +84,13 @@ std::array<int, 4> parseBounds(const std::string& text) {
     return bounds;
 }
 
+/// A number above 0, or "off".
+float parseClamp(const std::string& text) {
+    constexpr double kLeast = 1e-6, kMost = 1e9;
+    if (text == "off") return kInfinity;
+    return float(Arguments::parseReal("--clamp", text, kLeast, kMost));
+}
+
 void checkRequest(const RenderRequest& request) {
     if (request.options.scene.empty())
         throw Error(ErrorKind::Usage, "a scene is missing: penumbra render SCENE -o PICTURE");
@@ -98,7 +105,8 @@ void checkRequest(const RenderRequest& request) {
 /// Eight lanes must give what one gives.
 void replay(const RenderJob& job, const RenderRequest& request) {
     const auto [x, y] = *request.pixel;
-    const Spectrum<float> alone = job.replay(x, y, *request.sample, 1), wide = job.replay(x, y, *request.sample, 8);
+    const ReplayedSample sample = job.replay(x, y, *request.sample, 1);
+    const Spectrum<float> alone = sample.value, wide = job.replay(x, y, *request.sample, 8).value;
     for (const auto channel : {&Spectrum<float>::r, &Spectrum<float>::g, &Spectrum<float>::b})
         if (floatBits(alone.*channel) != floatBits(wide.*channel) &&
             !(std::isnan(alone.*channel) && std::isnan(wide.*channel)))
@@ -112,6 +120,9 @@ void replay(const RenderJob& job, const RenderRequest& request) {
         printWarning(
             "the sample is not finite, or beyond the range of the film: the film counts it as invalid and holds black "
             "for it");
+    if (sample.unlimited && !request.quiet)
+        printWarning(fmt::format("the sample is limited to {}: it was {:.9g} {:.9g} {:.9g}", job.scene().film.maxComponent,
+                                 sample.unlimited->r, sample.unlimited->g, sample.unlimited->b));
 }
 
 /// Says which samples were lost, with the commands that replay them.
@@ -135,6 +146,7 @@ void reportPicture(const RenderJob& job, const std::string& path, const std::str
                           crop.width(), crop.height(), samples, samples == 1 ? "" : "s", statistics.times.render,
                           errorText(statistics.error)));
     if (!through.empty()) printNote("colours went through " + through);
+    if (statistics.clamp.samples) printNote(clampText(statistics.clamp));
 }
 
 void printStatistics(const RenderJob& job, const RenderRequest& request, const RenderStatistics& statistics) {
@@ -272,6 +284,10 @@ void addTransport(Arguments& arguments, RenderRequest& r) {
         "how a point on an area light is chosen: by the solid angle it covers, or evenly by area, the classic "
         "estimator of "
         "textbooks: cosine at the surface x cosine at the light x area / distance squared (default: solid-angle)");
+    arguments.text("--clamp", "X",
+                   "scales samples that are brighter down to X: less noise, but the picture becomes too dark, which its "
+                   "header and --stats put in numbers; off lets the film's maxcomponentvalue not count, either",
+                   [&b](const std::string& t) { b.clamp = parseClamp(t); });
     addEnum<IntersectionMode>(arguments, "--intersection",
                               {{"robust", IntersectionMode::Robust}, {"fast", IntersectionMode::Fast}}, b.intersection,
                               "watertight, or faster with a ray in a million slipping through edges (default: robust)");

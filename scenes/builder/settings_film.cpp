@@ -141,6 +141,7 @@ FilmSettings readFilm(const FilmEntity& film, Shutter shutter, const BuildOption
     if (!(settings.maxComponent > 0))
         context.fail(parameters.findAny("maxcomponentvalue")->where,
                      fmt::format("maxcomponentvalue {} is not above 0", settings.maxComponent));
+    if (options.clamp) settings.maxComponent = *options.clamp;
     parameters.boolean("savefp16", true);  // pictures are always written in full floats
     parameters.number("diagonal", 35);     // matters to realistic cameras only
     context.warnUnused(parameters, ownerName("film", film.type));
