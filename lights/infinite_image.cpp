@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace penumbra {
@@ -31,20 +30,14 @@ std::array<Vec3<float>, 3> orthonormalAxes(const Matrix4& m) {
     return axes;
 }
 
-float usable(float x) {
-    return std::isfinite(x) && x > 0.f ? x : 0.f;
-}
-
 }  // namespace
 
 ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::size_t resolution,
                                             const Spectrum<float>& scale, const Matrix4& worldFromLight,
                                             LightTables& tables) {
     const std::size_t count = resolution * resolution;
-    const std::size_t needed = 4 * count + (resolution + 1) * (resolution + 1);
-    if (resolution == 0 || resolution > kMaxResolution ||
-        tables.numbers.size() + needed > std::size_t(std::numeric_limits<std::int32_t>::max()))
-        throw Error(ErrorKind::BadData, "the images of the infinite lights are too large");
+    if (resolution == 0 || resolution > kMaxResolution)
+        throw Error(ErrorKind::BadData, "the image of the infinite light is too large");
 
     ImageInfiniteLight light;
     const std::array<Vec3<float>, 3> axes = orthonormalAxes(worldFromLight);
@@ -53,8 +46,9 @@ ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::siz
     light.axisZ = axes[2];
     light.resolution = std::uint32_t(resolution);
     light.stride = searchStride(resolution);
-    light.pixels = std::uint32_t(tables.numbers.size());
-    tables.numbers.resize(tables.numbers.size() + 4 * count);
+    light.pixels = roomForNumbers(tables, 4 * count + (resolution + 1) * (resolution + 1));
+    light.distribution = std::uint32_t(light.pixels + 4 * count);
+    tables.numbers.resize(light.distribution);
     float* const rows = tables.numbers.data() + light.pixels;
     std::vector<float> weights(count);
     double sum = 0;
@@ -67,7 +61,6 @@ ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::siz
         sum += weights[i];
     }
     light.mean = float(sum / double(count));
-    light.distribution = std::uint32_t(tables.numbers.size());
     appendCumulativeGrid(weights, resolution, resolution, tables.numbers);
     light.fillDensities(weights, tables);
     return light;

@@ -11,9 +11,10 @@
 #pragma once
 
 #include "core/math/distribution.h"
-#include "core/math/matrix.h"
 #include "core/math/equal_area.h"
+#include "core/math/matrix.h"
 #include "lights/infinite_light.h"
+#include "lights/light_image.h"
 
 #include <span>
 
@@ -63,9 +64,7 @@ struct ImageInfiniteLight {
                            dot(light(&ImageInfiniteLight::axisZ), hit.wi)};
         const Vec2<F> st = equalAreaSquare(d);
         const UInt<F> n = light(&ImageInfiniteLight::resolution);
-        const F size = toFloat<F>(n);
-        const auto pixelAt = [&](F x) { return min(toUInt(clamp(x * size, F(0.f), size)), n - UInt<F>(1u)); };
-        return at(light, tables, pixelAt(st.x), pixelAt(st.y));
+        return at(light, tables, nearestPixel(st.x, n), nearestPixel(st.y, n));
     }
 
 private:

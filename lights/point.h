@@ -3,7 +3,7 @@
 // Irradiance at distance d is I / d^2; nothing arrives at the point itself.
 #pragma once
 
-#include "lights/light.h"
+#include "lights/placed_light.h"
 
 namespace penumbra {
 
@@ -27,11 +27,8 @@ struct PointLight {
     template <class F>
     static LightSample<F> sample(const Records<F, PointLight>& light, const LightTables&, const Vec3<F>& p,
                                  const Vec2<F>&) {
-        const Vec3<F> d = light(&PointLight::position) - p;
-        const F distance = length(d), inverse = F(1.f) / distance;
-        const Mask<F> valid = isFinite(inverse * inverse) & isFinite(distance);
-        return lightSample(valid, d * inverse, distance, light(&PointLight::intensity) * (inverse * inverse), F(1.f),
-                           Mask<F>(true));
+        return sampleFromPoint(light(&PointLight::position), p,
+                               [&](const Vec3<F>&) { return light(&PointLight::intensity); });
     }
 };
 

@@ -15,9 +15,12 @@
 #include "lights/area_sphere.h"
 #include "lights/area_triangle.h"
 #include "lights/distant.h"
+#include "lights/goniometric.h"
 #include "lights/infinite_constant.h"
 #include "lights/infinite_image.h"
 #include "lights/point.h"
+#include "lights/projection.h"
+#include "lights/spot.h"
 
 #include <algorithm>
 #include <span>
@@ -25,8 +28,8 @@
 
 namespace penumbra {
 
-using LightTypes = TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, PointLight, DistantLight,
-                            ConstantInfiniteLight, ImageInfiniteLight>;
+using LightTypes = TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, PointLight, SpotLight,
+                            GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight>;
 
 /// What `list lights` shows: each plug-in once, though several types (the shapes of an area light) share it.
 std::vector<PluginInfo> lightPlugins();

@@ -72,6 +72,13 @@ LightSource "infinite" "string filename" "sky.pfm" "float scale" .3
 LightSource "infinite" "rgb L" [ .05 .06 .07 ]
 LightSource "distant" "point3 from" [ 1 2 -1 ] "rgb L" [ .4 .3 .2 ]
 LightSource "point" "point3 from" [ -1 1.8 -1 ] "rgb I" [ .3 .5 .6 ]
+LightSource "spot" "point3 from" [ 1 2.2 -1 ] "point3 to" [ .3 0 0 ] "rgb I" [ .6 .5 .3 ] "float conedeltaangle" 20
+AttributeBegin
+  Translate -1.5 2 1
+  Rotate 100 1 0 0
+  LightSource "goniometric" "string filename" "sky.pfm" "rgb I" [ .4 .4 .5 ]
+  LightSource "projection" "string filename" "wood.pfm" "float fov" 70
+AttributeEnd
 AttributeBegin
   AreaLightSource "diffuse" "rgb L" [ 4 4 3 ]
   Shape "trianglemesh" "point3 P" [ -.5 2.4 -.5  .5 2.4 -.5  .5 2.4 .5  -.5 2.4 .5 ] "integer indices" [ 0 1 2 0 2 3 ]

@@ -210,6 +210,52 @@ struct LightCases<PointLight> {
 };
 
 template <>
+struct LightCases<SpotLight> {
+    static std::vector<LightCase> make(double scale) {
+        std::vector<LightCase> cases;
+        const auto add = [&](std::string name, Vec3d from, Vec3d axis, double inner, double outer) {
+            LightCase c;
+            c.name = "spot " + name;
+            c.lights.add(SpotLight::make(scaling(scale, scale, scale), from, axis, inner, outer,
+                                         kTestRadiance * float(scale * scale)));
+            cases.push_back(std::move(c));
+        };
+        add("from its axis", {0, 0, 2}, {0, 0, -3}, 25, 30);
+        add("from its edge", {1, 2, 2}, {0, -2, -2}, 10, 40);
+        add("from its rim", {0, 0, 5}, {0, 2.6e-5, -1}, 1e-3, 2e-3);
+        return cases;
+    }
+};
+
+template <>
+struct LightCases<GoniometricLight> {
+    static std::vector<LightCase> make(double scale) {
+        LightCase c;
+        c.name = "goniometric";
+        std::vector<float> image;
+        for (int i = 0; i < 25; ++i)
+            image.push_back(float(i % 7));
+        c.lights.add(GoniometricLight::make(scaling(scale, scale, scale) * translation(1, 2, 2) * rotation(40, 1, 2, 3),
+                                            image, 5, kTestRadiance * float(scale * scale), c.lights.tables));
+        return {c};
+    }
+};
+
+template <>
+struct LightCases<ProjectionLight> {
+    static std::vector<LightCase> make(double scale) {
+        LightCase c;
+        c.name = "projection";
+        std::vector<float> image;
+        for (int i = 0; i < 3 * 12; ++i)
+            image.push_back(float(i % 5 + 1));
+        c.lights.add(ProjectionLight::make(scaling(scale, scale, scale) * translation(1, 0, 2) * rotation(170, 0, 1, 0),
+                                           image, 4, 3, 60, float(scale * scale), c.lights.tables));
+        return {c};
+    }
+};
+
+template <>
 struct LightCases<DistantLight> {
     static std::vector<LightCase> make(double) {
         LightCase c;

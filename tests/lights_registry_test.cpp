@@ -28,7 +28,8 @@ TEST(LightsRegistry, PluginsAreListedOnce) {
     std::vector<std::string> names;
     for (const PluginInfo& info : lightPlugins())
         names.emplace_back(info.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"diffuse", "point", "distant", "infinite"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"diffuse", "point", "spot", "goniometric", "projection", "distant",
+                                               "infinite"}));
     for (const PluginInfo& info : lightPlugins())
         EXPECT_FALSE(info.summary.empty() || info.parameters.empty()) << info.name;
 }

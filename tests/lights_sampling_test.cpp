@@ -201,13 +201,11 @@ LightTable everyLight(bool classic) {
     forEachType(LightTypes{}, [&]<class T>() {
         for (const LightCase& c : LightCases<T>::make(1)) {
             T light = c.lights.rows<T>()[0];
-            if constexpr (std::is_same_v<T, ImageInfiniteLight>) {
-                const std::uint32_t shift = std::uint32_t(table.tables.numbers.size());
-                light.pixels += shift;
-                light.distribution += shift;
-                table.tables.numbers.insert(table.tables.numbers.end(), c.lights.tables.numbers.begin(),
-                                            c.lights.tables.numbers.end());
-            }
+            const std::uint32_t shift = std::uint32_t(table.tables.numbers.size());
+            if constexpr (requires { light.pixels; }) light.pixels += shift;
+            if constexpr (requires { light.distribution; }) light.distribution += shift;
+            table.tables.numbers.insert(table.tables.numbers.end(), c.lights.tables.numbers.begin(),
+                                        c.lights.tables.numbers.end());
             table.add(light);
         }
     });

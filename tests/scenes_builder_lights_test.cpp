@@ -216,14 +216,83 @@ TEST(LightSources, ImageInfiniteLight) {
     EXPECT_NE(error("\"string filename\" \"no.exr\"").find("no.exr"), std::string::npos);
 }
 
-TEST(LightSources, OthersAreReplacedWithOneWarning) {
-    const BuiltScene built = buildWorld(
-        "LightSource \"spot\" \"rgb I\" [2 2 2]\nLightSource \"spot\"\nLightSource \"projection\" \"string filename\" "
-        "\"x.exr\"");
-    EXPECT_EQ(built.scene.lights.rows<PointLight>().size(), 3u);
-    EXPECT_EQ(built.scene.lights.rows<PointLight>()[0].intensity.r, 2);
-    ASSERT_EQ(built.warnings.all().size(), 2u);
-    EXPECT_EQ(built.warnings.all()[0], "test.pbrt:2:1: the light 'spot' is not there yet; 'point' stands in for it");
+/// The intensity towards w of the only light, which is at the point p.
+Rgb intensityTowards(const BuiltScene& built, Vec3<float> p, Vec3<float> w) {
+    EXPECT_EQ(built.scene.lights.size(), 1u);
+    const float distance = 2.f / length(w);
+    const Spectrum<float> L = sampleLight<float>(built.scene.lights, 0u, p + w * distance, {0.f, 0.f}).L * 4.f;
+    return {L.r, L.g, L.b};
+}
+
+TEST(LightSources, SpotsHaveConesAndPower) {
+    const auto at = [](const std::string& parameters, float degrees) {
+        const BuiltScene built = buildWorld(
+            "Translate 1 0 0 LightSource \"spot\" \"point3 from\" [0 0 1] \"point3 to\" [0 5 1] " + parameters);
+        const float a = degrees * std::numbers::pi_v<float> / 180;
+        return intensityTowards(built, {1, 0, 1}, {std::sin(a), std::cos(a), 0}).r;
+    };
+    EXPECT_NEAR(at("", 24), 1, 1e-5);
+    EXPECT_GT(at("", 28), 0.1);
+    EXPECT_LT(at("", 28), 0.9);
+    EXPECT_EQ(at("", 31), 0);
+    EXPECT_NEAR(at("\"float coneangle\" 60 \"rgb I\" [3 2 1] \"float scale\" 2", 50), 6, 1e-5);
+    const double k = 2 * std::numbers::pi *
+                     (1 - std::cos(50 * std::numbers::pi / 180) +
+                      (std::cos(50 * std::numbers::pi / 180) - std::cos(60 * std::numbers::pi / 180)) / 2);
+    EXPECT_NEAR(at("\"float coneangle\" 60 \"float conedeltaangle\" 10 \"float power\" 10", 3), 10 / k, 1e-5);
+    // A falloff of more than the cone is mirrored at the axis, as the format has it; of more than twice, it is cut.
+    EXPECT_NEAR(at("\"float coneangle\" 20 \"float conedeltaangle\" 25", 4), 1, 1e-4);
+    EXPECT_LT(at("\"float coneangle\" 20 \"float conedeltaangle\" 25", 6), 1);
+    EXPECT_EQ(at("\"float coneangle\" 2", 3), 0);
+    EXPECT_TRUE(buildWorld("LightSource \"spot\" \"float coneangle\" 2").warnsOf("more than twice coneangle"));
+}
+
+TEST(LightSources, GoniometricImagesAreMeansOfTheirChannels) {
+    const TemporaryFolder folder;
+    folder.file("lamp.pfm", pfm(4, 4, {1, 2, 3}));
+    folder.file("wide.pfm", pfm(4, 2, {1, 2, 3}));
+    const auto at = [&](const std::string& parameters) {
+        return intensityTowards(
+            buildWorld("LightSource \"goniometric\" \"string filename\" \"lamp.pfm\" " + parameters, folder.path("")),
+            {0, 0, 0}, {0.6f, 0, 0.8f});
+    };
+    EXPECT_NEAR(at("").g, 2, 1e-6);
+    EXPECT_NEAR(at("\"rgb I\" [3 2 1] \"float scale\" 2").r, 12, 1e-5);
+    EXPECT_NEAR(at("\"float power\" 8").r, 8 / (4 * std::numbers::pi), 1e-6);
+    EXPECT_NEAR(at("\"float power\" 8 \"float scale\" 3").r, 24 / (4 * std::numbers::pi), 1e-6);
+    const std::string wide =
+        errorOf("WorldBegin\n LightSource \"goniometric\" \"string filename\" \"wide.pfm\"", {}, folder.path(""));
+    EXPECT_EQ(wide.rfind("test.pbrt:2:2: light 'goniometric': the image ", 0), 0u) << wide;
+    const BuiltScene none = buildWorld("LightSource \"goniometric\" \"rgb I\" [2 2 2]");
+    EXPECT_TRUE(none.warnsOf("light 'goniometric': without a filename it shines alike in all directions"));
+    EXPECT_EQ(onlyLight<PointLight>(none).intensity.r, 2);
+}
+
+TEST(LightSources, ProjectionsAreFrames) {
+    const TemporaryFolder folder;
+    folder.file("slide.pfm", pfm(4, 2, {1, 2, 3}));
+    const auto at = [&](const std::string& parameters, Vec3<float> w) {
+        return intensityTowards(
+            buildWorld("LightSource \"projection\" \"string filename\" \"slide.pfm\" " + parameters, folder.path("")),
+            {0, 0, 0}, w);
+    };
+    EXPECT_NEAR(at("", {1.9f, 0.9f, 1}).b, 3, 1e-5);
+    EXPECT_EQ(at("", {1.9f, 1.1f, 1}).b, 0);
+    EXPECT_EQ(at("\"float fov\" 60", {0, 0.6f, 1}).b, 0);
+    EXPECT_NEAR(at("\"float scale\" 2 \"float fov\" 60", {0, 0.5f, 1}).r, 2, 1e-5);
+    // The power is that of the luminance: A = 4 tan^2(45 degrees) 2, and the eight pixels lie at x = +-0.5, +-1.5 and
+    // y = +-0.5 of the screen at distance 1.
+    const double luminance = 0.2126 * 1 + 0.7152 * 2 + 0.0722 * 3;
+    const double cosines = (std::pow(1 + 0.25 + 0.25, -1.5) + std::pow(1 + 2.25 + 0.25, -1.5)) / 2;
+    EXPECT_NEAR(at("\"float power\" 5", {0, 0, 1}).r, 5 / (8 * luminance * cosines), 1e-4);
+
+    const auto error = [&](const std::string& parameters) {
+        return errorOf("WorldBegin\n LightSource \"projection\" " + parameters, {}, folder.path(""));
+    };
+    EXPECT_EQ(error(""), "test.pbrt:2:2: light 'projection': needs an image, as \"string filename\"");
+    EXPECT_NE(error("\"string filename\" \"slide.pfm\" \"float fov\" 180").find("fov is 180"), std::string::npos);
+    folder.file("black.pfm", pfm(1, 1, {0, 0, 0}));
+    EXPECT_NE(error("\"string filename\" \"black.pfm\" \"float power\" 1").find("not black"), std::string::npos);
 }
 
 TEST(LightSelectionOfScenes, LeavesConstantSkiesOutUnlessLightsAreAllThereIs) {

@@ -264,6 +264,53 @@ void addLightsOfOneDirection(std::vector<AnalyticScene>& scenes) {
         diffuse(kRho) + floorSquare(2) + "LightSource \"point\" \"rgb I\" [ 1 1 1 ] \"point3 from\" [ 0 0 1 ]\n");
     scenes.push_back(floor);
 
+    const auto overTheFloor = [&](const std::string& id, const std::string& claim, const std::string& light,
+                                  double mean) {
+        AnalyticScene s = floor;
+        s.id = id;
+        s.claim = claim;
+        s.text = sceneText({.camera = orthographicView({0, 0, .5}, {0, 0, 0}, {0, 1, 0}, 1)},
+                           diffuse(kRho) + floorSquare(2) + light);
+        s.expected = grey(kRho / kPi * mean);
+        return s;
+    };
+    scenes.push_back(overTheFloor(
+        "L7", "spotlight of power 4 pi, whose cone and falloff the floor catches whole: mean E = power / A",
+        fmt::format("LightSource \"spot\" \"float power\" [ {} ] \"point3 from\" [ 0 0 1 ] \"point3 to\" [ .1 .1 0 ] "
+                    "\"float coneangle\" [ 30 ] \"float conedeltaangle\" [ 20 ]\n",
+                    4 * kPi),
+        kPi));
+
+    // Of a screen of one pixel the power is taken at its centre: intensity power / (4 tan^2). Its light fills a
+    // pyramid.
+    const double half = kPi / 6, tangent = std::tan(half);
+    AnalyticScene slide = overTheFloor(
+        "L8",
+        "projector of one pixel, power 12 and fov 60 at height 1: mean E = power / (4 tan^2) Omega / A, Omega = 4 asin "
+        "sin^2(fov / 2)",
+        scoped(
+            "Translate 0 0 1\nRotate 180 1 0 0\nLightSource \"projection\" \"string filename\" \"slide.pfm\" \"float "
+            "fov\" [ 60 ] \"float power\" [ 12 ]\n"),
+        12 / (4 * tangent * tangent) * 4 * std::asin(std::sin(half) * std::sin(half)) / 4);
+    slide.files = {{"slide.pfm", pfmImage(1, 1, {{.25f, .25f, .25f}})}};
+    scenes.push_back(slide);
+
+    // The lamp's -y, the outer half of its map, shines downwards.
+    AnalyticScene lamp = overTheFloor(
+        "L9", "measured lamp of intensity 3 downwards, 1 upwards, hung at height 1 over the floor: three times B19",
+        scoped(
+            "Translate 0 0 1\nRotate 90 1 0 0\nLightSource \"goniometric\" \"string filename\" \"lamp.pfm\" \"rgb I\" "
+            "[ 10 10 10 ]\n"),
+        3 * 2 * kPi / 3 / 4);
+    std::vector<std::array<float, 3>> values;
+    for (int row = 0; row < 16; ++row)
+        for (int column = 0; column < 16; ++column) {
+            const bool up = mapDirection((column + .5) / 16, (row + .5) / 16).z > 0;
+            values.push_back(up ? std::array{.1f, .1f, .1f} : std::array{.3f, .3f, .3f});
+        }
+    lamp.files = {{"lamp.pfm", pfmImage(16, 16, values)}};
+    scenes.push_back(lamp);
+
     AnalyticScene textured = floor;
     textured.id = "T1";
     textured.claim =

@@ -1,4 +1,4 @@
-// LightSource: point, distant, infinite; and what stands in for the kinds that are not there yet.
+// LightSource: point, spot, goniometric, projection, distant, infinite.
 #include "scenes/builder/lights.h"
 
 #include "core/image/image_io.h"
@@ -23,13 +23,63 @@ public:
           owner_(ownerName("light", light.type)) {}
 
     void addPoint() {
-        // The kinds of point light that have a shape of their own count as shining alike everywhere, with what flux
-        // they are given.
         const Vec3d p = transformPoint(light_.lightToWorld, point("from", {0, 0, 0}));
-        const float power = number("power", 0);
-        const Rgb intensity = (light_.type == "projection" ? Rgb{1, 1, 1} : spectrum("I")) * scale() *
-                              (power > 0 ? power / (4 * kPi) : 1.f);
-        lights_.add(PointLight{rounded(p), toSpectrum(checked(intensity))});
+        lights_.add(PointLight{rounded(p), toSpectrum(intensity(4 * kPi))});
+    }
+
+    void addSpot() {
+        const Vec3d from = point("from", {0, 0, 0}), to = point("to", {0, 0, 1});
+        const Vec3d axis = {to.x - from.x, to.y - from.y, to.z - from.z};
+        const float outer = context_.number(parameters_, "coneangle", 30, 0, 180);
+        const float delta = context_.number(parameters_, "conedeltaangle", 5, 0, 360);
+        if (!(std::hypot(axis.x, axis.y, axis.z) > 0)) fail("its points 'from' and 'to' give no direction");
+        // The inner cone is what is left of the outer one; up to twice its angle the format mirrors what is more than
+        // all of it, beyond that its light would shine outside of the cone.
+        const float inner = delta > 2 * outer ? 0 : std::fabs(outer - delta);
+        if (delta > 2 * outer)
+            context_.warn(light_.where, owner_ +
+                                            ": conedeltaangle is more than twice coneangle; the light falls off "
+                                            "from the axis on");
+        add([&] {
+            SpotLight light = SpotLight::make(light_.lightToWorld, from, axis, inner, outer, {});
+            light.intensity = toSpectrum(intensity(light.unitPower()));
+            return light;
+        });
+    }
+
+    void addGoniometric() {
+        const std::string file = parameters_.text("filename", "");
+        if (file.empty()) {
+            context_.warn(light_.where, owner_ + ": without a filename it shines alike in all directions");
+            return addPoint();
+        }
+        const Image image = squareImage(file);
+        std::vector<float> values;
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) {
+                const Rgb c = image.rgb(x, y);
+                values.push_back((c.r + c.g + c.b) / 3);
+            }
+        add([&] {
+            GoniometricLight light =
+                GoniometricLight::make(light_.lightToWorld, values, std::size_t(image.width()), {}, lights_.tables);
+            light.intensity = toSpectrum(intensity(4 * kPi * light.mean));
+            return light;
+        });
+    }
+
+    void addProjection() {
+        const std::string file = parameters_.text("filename", "");
+        if (file.empty()) fail("needs an image, as \"string filename\"");
+        const float fov = context_.number(parameters_, "fov", 90, 0.01f, 179);
+        const Image image = readFile(file);
+        const std::vector<float> pixels = inFilmSpace(image);
+        const std::size_t width = std::size_t(image.width()), height = std::size_t(image.height());
+        const float unitPower = number("power", 0) > 0 ? projectedLuminance(pixels, {width, height, fov}, width) : 1.f;
+        const float factor = checked(Rgb{1, 1, 1} * withPower(unitPower)).r;
+        add([&] {
+            return ProjectionLight::make(light_.lightToWorld, pixels, width, height, fov, factor, lights_.tables);
+        });
     }
 
     void addDistant() {
@@ -56,22 +106,36 @@ public:
     void finish() { context_.warnUnused(parameters_, owner_); }
 
 private:
-    void addImage(const std::string& file, float illuminance) {
-        if (BuildContext::findSpectrum(parameters_, "L")) fail("takes either L or an image, not both");
-        const std::string path = context_.placed(light_.where, owner_, [&] { return context_.path(file); });
-        const Image image = context_.placed(light_.where, owner_, [&] { return readImage(path); });
+    /// Adds the light that `make` makes; errors of it get the place.
+    template <class Make>
+    void add(Make make) {
+        context_.placed(light_.where, owner_, [&] { lights_.add(make()); });
+    }
+
+    Image readFile(const std::string& file) const {
+        return context_.placed(light_.where, owner_, [&] { return readImage(context_.path(file)); });
+    }
+
+    Image squareImage(const std::string& file) const {
+        Image image = readFile(file);
         if (image.width() != image.height())
             fail(
                 fmt::format("the image {} has {} x {} pixels; it has to be square, in the equal-area octahedral map "
                             "(imgtool of pbrt makes "
                             "one of a latitude-longitude map)",
-                            quote(path, 200), image.width(), image.height()));
+                            quote(file, 200), image.width(), image.height()));
+        return image;
+    }
+
+    void addImage(const std::string& file, float illuminance) {
+        if (BuildContext::findSpectrum(parameters_, "L")) fail("takes either L or an image, not both");
+        const Image image = squareImage(file);
         const std::vector<float> pixels = inFilmSpace(image);
         const float size = illuminance > 0 ? illuminance / upwardIlluminance(pixels, std::size_t(image.width())) : 1.f;
         const Rgb factor = checked(Rgb{1, 1, 1} * (scale() * size));
-        context_.placed(light_.where, owner_, [&] {
-            lights_.add(ImageInfiniteLight::make(pixels, std::size_t(image.width()), toSpectrum(factor),
-                                                 light_.lightToWorld, lights_.tables));
+        add([&] {
+            return ImageInfiniteLight::make(pixels, std::size_t(image.width()), toSpectrum(factor), light_.lightToWorld,
+                                            lights_.tables);
         });
     }
 
@@ -89,8 +153,8 @@ private:
                 pixels.insert(pixels.end(), {film.r, film.g, film.b});
             }
         if (broken)
-            context_.warn(light_.where, fmt::format("{}: {} pixels of the image are not finite and count as black",
-                                                    owner_, broken));
+            context_.warn(light_.where,
+                          fmt::format("{}: {} pixels of the image are not finite and count as black", owner_, broken));
         return pixels;
     }
 
@@ -108,6 +172,31 @@ private:
         if (!(sum > 0)) fail("an illuminance needs an image that is not black above the horizon");
         return float(kTwoPi * sum / (double(n) * double(n)));
     }
+
+    /// The luminous flux through the screen of an image.
+    float projectedLuminance(const std::vector<float>& pixels, const ProjectionScreen& screen,
+                             std::size_t width) const {
+        const std::size_t count = pixels.size() / 3, height = count / width;
+        double sum = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double luminance =
+                context_.filmColorSpace().luminance({pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]});
+            if (std::isfinite(luminance))
+                sum += luminance * screen.cosineCubed((double(i % width) + 0.5) / double(width),
+                                                      (double(i / width) + 0.5) / double(height));
+        }
+        return float(sum / double(count) * screen.area());
+    }
+
+    /// Scale, and power where it is given, for a light whose flux without them is `unitPower`.
+    float withPower(float unitPower) const {
+        const float power = number("power", 0);
+        if (!(power > 0)) return scale();
+        if (!(unitPower > 0)) fail("a power needs a light that is not black");
+        return scale() * (power / unitPower);
+    }
+    /// I, for a light whose flux is `unitPower` where I is 1.
+    Rgb intensity(float unitPower) const { return checked(spectrum("I") * withPower(unitPower)); }
 
     static Vec3<float> rounded(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
     float number(const char* name, float otherwise) const {
@@ -136,20 +225,29 @@ private:
 };
 
 void addSource(const LightEntity& light, BuildContext& context, LightTable& lights) {
-    static const std::vector<std::string> known{"point", "distant", "infinite", "spot", "goniometric", "projection"};
-    if (std::find(known.begin(), known.end(), light.type) == known.end())
+    struct Kind {
+        const char* name;
+        void (SourceReader::*add)();
+    };
+    static constexpr Kind kinds[] = {
+        {"point", &SourceReader::addPoint},
+        {"spot", &SourceReader::addSpot},
+        {"goniometric", &SourceReader::addGoniometric},
+        {"projection", &SourceReader::addProjection},
+        {"distant", &SourceReader::addDistant},
+        {"infinite", &SourceReader::addInfinite},
+    };
+    const auto kind =
+        std::find_if(std::begin(kinds), std::end(kinds), [&](const Kind& k) { return light.type == k.name; });
+    if (kind == std::end(kinds)) {
+        std::vector<std::string> known;
+        for (const Kind& k : kinds)
+            known.emplace_back(k.name);
         context.fail(light.where, "unknown light " + quote(light.type) + suggestion(light.type, known));
+    }
     SourceReader reader(light, context, lights);
-    if (light.type == "distant")
-        reader.addDistant();
-    else if (light.type == "infinite")
-        reader.addInfinite();
-    else
-        reader.addPoint();
-    if (light.type == "point" || light.type == "distant" || light.type == "infinite") return reader.finish();
-    context.warnOnce("light " + light.type, light.where,
-                     "the light " + quote(light.type) + " is not there yet; 'point' stands in for it");
-    light.parameters.markAllUsed();
+    (reader.*kind->add)();
+    reader.finish();
 }
 
 }  // namespace

@@ -207,6 +207,17 @@ def studio(d):
     return add(room, box([0.1, -1.0, 0.3], 12, [0.7, 0.7, 0.7]))
 
 
+def lantern(d):
+    """A pierced lantern: three rings of holes round the axis z, in a shell that lets a little light through."""
+    turn, glow = math.atan2(d[1], d[0]) / (2 * math.pi), 0.06
+    for height, holes, shift in [(0.62, 8, 0.0), (0.15, 12, 0.5), (-0.32, 12, 0.0), (-0.75, 8, 0.5)]:
+        across = (turn * holes + shift) % 1 - 0.5
+        around = 2 * math.pi / holes * math.sqrt(1 - height * height)
+        if math.hypot(across * around, d[2] - height) < 0.16:
+            glow = 1.0
+    return [glow, glow, glow]
+
+
 def png(width, height, pixel):
     """An 8-bit RGB PNG; pixel(x, y) gives bytes."""
     raw = b"".join(b"\0" + bytes(v for x in range(width) for v in pixel(x, y)) for y in range(height))
@@ -309,6 +320,7 @@ def main():
     write("sweep.ply", sweep())
     write("evening.exr", environment(256, evening_sky))
     write("studio.exr", environment(128, studio))
+    write("lantern.exr", environment(256, lantern))
     write("truchet.png", truchet())
     write("bumps.png", bumps())
     write("flower.pbrt", flower())
