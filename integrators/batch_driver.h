@@ -1,8 +1,8 @@
 // The batch driver: the only place that gathers, sorts, packs and scatters paths. It runs the paths of a tile through the
 // steps of an integrator, about a thousand at a time.
 //
-// One step: trace the live rays in packets of eight; sort them by the material they met (a miss is a kind of its own); hand
-// each group of eight of one kind to the integrator, which adds emission, asks for a shadow ray and packs the ray that goes
+// One step: trace the live rays in packets of eight; where a mix of materials was met, choose one of them; sort the rays by
+// the material they met (a miss is a kind of its own); hand each group of eight of one kind to the integrator, which adds emission, asks for a shadow ray and packs the ray that goes
 // on; trace the shadow rays and add what arrives. Paths end in lockstep: there is no refill, so every number of a path
 // depends on its own address alone, and lanes, batch size and tile order change no bit.
 //
@@ -86,6 +86,18 @@ struct Step {
         nextCount += std::popcount(keep);
     }
 };
+
+/// What materials see of the surface where the ray met it, given the width of the ray's cone there.
+template <class F>
+ShadingContext<F> shadingContext(const Scene& scene, const SurfacePoint<F>& at, F coneWidth) {
+    return {scene.textures, scene.materials.tableData(), {at.uv, coneWidth * at.uvPerLength, at.p, at.ng, coneWidth}};
+}
+
+/// Of the ray's cone at the hit.
+template <class F>
+F coneWidthAt(const Scene& scene, const RayGroup<F>& g, const Hit<F>& hit) {
+    return g.coneWidth + F(scene.camera.coneSpread()) * hit.t;
+}
 
 namespace detail {
 
@@ -197,6 +209,7 @@ private:
 
     void step(std::uint32_t vertex) {
         traceNearest(vertex == 1);
+        if (!scene_.materials.mixes().empty()) chooseFromMixes(vertex);
         sortByMaterial();
         Step<F> step{scene_, batch_, vertex, 0};
         batch_.shadowCount = 0;
@@ -266,6 +279,30 @@ private:
             const F hit[8] = {floatFromBits(shape), load<F>(reinterpret_cast<const float*>(p.hit.primitive)), floatFromBits(instance),
                               load<F>(p.hit.u), load<F>(p.hit.v), load<F>(p.ray.far), F(0.f), F(0.f)};
             storeRows8(batch_.hits.rows[i], HitBuffer::kStride, hit, live);
+        }
+    }
+
+    /// Replaces the keys of mixes by those of what is met there; `order` is free until the sort.
+    void chooseFromMixes(std::uint32_t vertex) {
+        int count = 0;
+        for (int i = 0; i < batch_.live; ++i)
+            if (batch_.key[i] & kMixFlag) batch_.order[count++] = std::uint16_t(i);
+        for (int i = 0; i < count; i += W) {
+            const int n = groupSize(i, count);
+            const UInt<F> at = detail::groupIndices<F>(batch_.order + i, n);
+            RayGroup<F> g;
+            detail::gatherGroup<F>(g, batch_, batch_.now(), at, n, scene_.hasMotion);
+            const F u = scene_.sampler.at<F>(g.address, vertex).get1(Dim::Mix);
+            SurfacePoint<F> surface{};
+            F coneWidth(0.f);
+            if (scene_.materials.mixesAreTextured()) {
+                const Hit<F> hit = detail::gatherHit<F>(batch_.hits, at);
+                surface = surfacePoint(scene_.geometry, hit, g.origin, g.direction, g.time);
+                coneWidth = coneWidthAt(scene_, g, hit);
+            }
+            const UInt<F> met = penumbra::chooseFromMixes(scene_.materials.mixes().data(), gather(batch_.key, at), u,
+                                                          shadingContext(scene_, surface, coneWidth));
+            scatter(batch_.key, at, met);
         }
     }
 

@@ -91,14 +91,11 @@ private:
         const Mask<F> tired = Mask<F>(step.vertex > maxDepth_ + kMostPassThroughs);
         step.go(g,
                 {offsetOrigin(at.p, at.error, at.ng, g.direction), g.direction, g.throughput, F(0.f), g.etaScale,
-                 g.coneWidth + coneSpread<F>(step.scene) * hit.t, g.slot, g.depth, mediumBehind(at, g.direction, g.medium),
+                 coneWidthAt(step.scene, g, hit), g.slot, g.depth, mediumBehind(at, g.direction, g.medium),
                  g.firstLight},
                 !tired);
     }
     static constexpr std::uint32_t kMostPassThroughs = 10000;
-
-    template <class F>
-    static F coneSpread(const Scene& scene) { return F(scene.camera.coneSpread()); }
 
     template <class F>
     void emission(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at) const {
@@ -116,10 +113,8 @@ private:
     void scatterPath(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const SurfacePoint<F>& at,
                      const UInt<F>& material, const Mask<F>& goesOn) const {
         const Scene& scene = step.scene;
-        const F coneWidth = g.coneWidth + coneSpread<F>(scene) * hit.t;
-        const ShadingContext<F> context{scene.textures, scene.materials.tableData(),
-                                        {at.uv, coneWidth * at.uvPerLength, at.p, at.ng, coneWidth}};
-        const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), context);
+        const F coneWidth = coneWidthAt(scene, g, hit);
+        const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), shadingContext(scene, at, coneWidth));
         const Vec3<F> wo = at.frame.toLocal(-g.direction);
 
         const auto numbers = scene.sampler.at<F>(g.address, step.vertex);

@@ -8,7 +8,8 @@
 // group equal materials stand together, which makes their look-ups broadcasts.
 //
 // Thread safety: building is single-threaded; a finished table is immutable and safe for any number of threads.
-// Invariants: ids of tag t are firstId(t) .. firstId(t + 1) - 1, and the row of an id is id - firstId(t).
+// Invariants: ids of tag t are firstId(t) .. firstId(t + 1) - 1, and the row of an id is id - firstId(t). Beside them stand
+// the ids of mixes (mix.h), kMixFlag + row, which no closure belongs to; the members of a mix are older than itself.
 #pragma once
 
 #include "materials/coated_diffuse.h"
@@ -17,6 +18,7 @@
 #include "materials/diffuse.h"
 #include "materials/diffuse_transmission.h"
 #include "materials/interface.h"
+#include "materials/mix.h"
 #include "materials/thin_dielectric.h"
 
 #include <array>
@@ -29,6 +31,9 @@ namespace penumbra {
 using MaterialTypes =
     TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial,
              ThinDielectricMaterial, DiffuseTransmissionMaterial>;
+
+/// All that a scene file may call a material: those of MaterialTypes, and mixes of them.
+std::vector<PluginInfo> materialPlugins();
 
 /// What an integrator asks of a closure.
 template <class B, class F>
@@ -56,7 +61,8 @@ concept Material = std::is_trivially_copyable_v<M> && sizeof(M) % 4 == 0 &&
     { M::make(input) } -> std::same_as<M>;
 };
 
-/// Where a material was put while the table is built. Becomes a dense id (MaterialTable::id) when all are in.
+/// Where a material was put while the table is built; kTags is the tag of mixes. Becomes an id (MaterialTable::id) when all
+/// are in.
 struct MaterialHandle {
     std::uint32_t tag = 0, row = 0;
 };
@@ -82,11 +88,26 @@ public:
             ++first_[later];
         return {tag, std::uint32_t(rows.size() - 1)};
     }
+    MaterialHandle addMix(MaterialHandle first, MaterialHandle second, const ScalarInput& amount) {
+        mixes_.push_back({.amount = amount});
+        mixMembers_.push_back({first, second});
+        return {kTags, std::uint32_t(mixes_.size() - 1)};
+    }
     MaterialTables& tables() { return tables_; }
 
-    /// REQUIRES: nothing is added any more.
-    std::uint32_t id(MaterialHandle handle) const { return first_[handle.tag] + handle.row; }
+    /// Call once, when all materials are in and before the table is read.
+    void finish();
 
+    /// REQUIRES: finish().
+    std::uint32_t id(MaterialHandle handle) const {
+        return (handle.tag == kTags ? kMixFlag : first_[handle.tag]) + handle.row;
+    }
+
+    const std::vector<MixMaterial>& mixes() const { return mixes_; }
+    /// Whether choosing from mixes needs to know what the surface is like at the hit.
+    bool mixesAreTextured() const { return mixesAreTextured_; }
+
+    /// Mixes are not counted.
     std::uint32_t size() const { return first_[kTags]; }
     /// First id of a tag; of kTags: the number of materials.
     std::uint32_t firstId(unsigned tag) const { return first_[tag]; }
@@ -125,6 +146,9 @@ private:
 
     RowsOf<MaterialTypes>::type rows_;
     std::array<std::uint32_t, kTags + 1> first_{};
+    std::vector<MixMaterial> mixes_;
+    std::vector<std::array<MaterialHandle, 2>> mixMembers_;  ///< until finish()
+    bool mixesAreTextured_ = false;
     MaterialTables tables_;
 };
 

@@ -59,6 +59,7 @@ private:
             case Dim::LightPick: return 5;
             case Dim::Roulette: return 6;
             case Dim::ShadowRoulette: return 7;
+            case Dim::Mix: return 8;
         }
         return 0;
     }

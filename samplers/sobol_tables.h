@@ -9,7 +9,7 @@
 
 namespace penumbra {
 
-inline constexpr int kSobolDimensions = 8;
+inline constexpr int kSobolDimensions = 9;
 /// Indices below 2^this take a short cut.
 inline constexpr int kSobolShortBits = 12;
 
@@ -23,7 +23,8 @@ struct SobolTables {
         struct Polynomial { unsigned degree, coefficients, m[5]; };
         constexpr Polynomial kPolynomials[kSobolDimensions] = {
             {0, 0, {}}, {1, 0, {1}}, {2, 1, {1, 3}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}},
-            {4, 1, {1, 1, 3, 3}}, {4, 4, {1, 3, 5, 13}}, {5, 2, {1, 1, 5, 5, 17}}};
+            {4, 1, {1, 1, 3, 3}}, {4, 4, {1, 3, 5, 13}}, {5, 2, {1, 1, 5, 5, 17}},
+            {5, 4, {1, 1, 5, 5, 5}}};
         for (int d = 0; d < kSobolDimensions; ++d) {
             std::uint32_t v[33] = {};
             const Polynomial& p = kPolynomials[d];

@@ -72,6 +72,7 @@ TEST_P(Determinism, TheSceneHasEverything) {
         for (std::uint32_t id = 0; id < scene.materials.size(); ++id)
             materialTypes.insert(scene.materials.tag(id));
         EXPECT_EQ(materialTypes.size(), MaterialTable::kTags);
+        EXPECT_EQ(scene.materials.mixes().size(), 2u);
     } else {
         EXPECT_TRUE(scene.hasMotion);
         EXPECT_TRUE(scene.camera.moves());

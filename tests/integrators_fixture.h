@@ -122,6 +122,13 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indice
                "\"metal-Au-k\" \"float uroughness\" .3 \"float vroughness\" .05\n"
                "Shape \"sphere\" \"float radius\" .25\n") +
            R"(
+MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [ .2 .3 .7 ]
+MakeNamedMaterial "metal" "string type" "conductor" "texture roughness" "rough"
+MakeNamedMaterial "hole" "string type" "interface"
+MakeNamedMaterial "worn" "string type" "mix" "string materials" [ "paint" "metal" ] "texture amount" "rough"
+Material "mix" "string materials" [ "worn" "hole" ] "float amount" .3
+)" + scoped("Translate -1.8 .3 -1\nShape \"sphere\" \"float radius\" .3\n") +
+           R"(
 MakeNamedMedium "ink" "string type" "homogeneous" "rgb sigma_a" [ .5 1.5 2.5 ] "rgb sigma_s" [ 0 0 0 ]
 AttributeBegin
   MediumInterface "ink" ""

@@ -100,19 +100,83 @@ TEST(MaterialLibrary, ThinSheetsAndPanes) {
     EXPECT_EQ(sheet.scale, 0.5f);
 }
 
-TEST(MaterialLibrary, MixIsItsFirst) {
-    const std::string two =
-        "MakeNamedMaterial \"a\" \"string type\" \"conductor\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\"\n";
-    const BuiltScene built =
-        withMaterial(two + "Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\" 0.2");
-    EXPECT_EQ(built.scene.materials.rows<ConductorMaterial>().size(), 1u);
-    EXPECT_TRUE(built.warnsOf("the first of its two stands in"));
-    EXPECT_NE(
-        materialError(
-            "MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"] NamedMaterial \"m\"")
-            .find("refers to itself"),
-        std::string::npos);
+/// Materials a (metal), b (paint), c (a border of media), and what else the text names.
+std::string mixOf(const std::string& parameters) {
+    return "MakeNamedMaterial \"a\" \"string type\" \"conductor\" MakeNamedMaterial \"b\" \"string type\" \"diffuse\" "
+           "MakeNamedMaterial \"c\" \"string type\" \"interface\"\n"
+           "Material \"mix\" \"string materials\" " +
+           parameters;
+}
+
+TEST(MaterialLibrary, AMixHasTwoMembersAndAnAmount) {
+    const BuiltScene built = withMaterial(mixOf("[\"a\" \"b\"] \"float amount\" 0.2"));
+    const MaterialTable& table = built.scene.materials;
+    ASSERT_EQ(table.mixes().size(), 1u);
+    const MixMaterial& mix = table.mixes()[0];
+    EXPECT_EQ(built.scene.geometry.shapes.at(0).material, kMixFlag);
+    EXPECT_EQ(table.tag(mix.first), (kTagOf<ConductorMaterial, MaterialTypes>));
+    EXPECT_EQ(table.tag(mix.second), (kTagOf<DiffuseMaterial, MaterialTypes>));
+    EXPECT_EQ(mix.amount.constant, 0.2f);
+    EXPECT_FALSE(table.mixesAreTextured());
+    EXPECT_EQ(flagsOf(built) & (kShapeNeedsUv | kShapeNeedsTangent), 0u);
+    EXPECT_TRUE(built.warnings.all().empty());
+    EXPECT_EQ(withMaterial(mixOf("[\"a\" \"b\"]")).scene.materials.mixes().at(0).amount.constant, 0.5f);
+    EXPECT_TRUE(withMaterial(mixOf("[\"a\" \"b\"] \"float amont\" 1")).warnsOf("did you mean 'amount'"));
+}
+
+TEST(MaterialLibrary, AMixOfOneAloneIsThatOne) {
+    for (const char* amount : {"0", "-1"})
+        EXPECT_EQ(withMaterial(mixOf("[\"b\" \"c\"] \"float amount\" " + std::string(amount)))
+                      .scene.materials.tag(0), (kTagOf<DiffuseMaterial, MaterialTypes>));
+    const BuiltScene built = withMaterial(mixOf("[\"a\" \"b\"] \"float amount\" 1"));
+    EXPECT_TRUE(built.scene.materials.mixes().empty());
+    const std::uint32_t met = built.scene.geometry.shapes.at(0).material;
+    EXPECT_EQ(built.scene.materials.tag(met), (kTagOf<DiffuseMaterial, MaterialTypes>));
+}
+
+TEST(MaterialLibrary, MixesNestAndMayBeDefinedInAnyOrder) {
+    const BuiltScene built = withMaterial(
+        "NamedMaterial \"outer\" Shape \"disk\" NamedMaterial \"inner\" Shape \"disk\"\n"
+        "MakeNamedMaterial \"outer\" \"string type\" \"mix\" \"string materials\" [\"inner\" \"paint\"]\n"
+        "MakeNamedMaterial \"inner\" \"string type\" \"mix\" \"string materials\" [\"paint\" \"glass\"]\n"
+        "MakeNamedMaterial \"paint\" \"string type\" \"diffuse\" MakeNamedMaterial \"glass\" \"string type\" "
+        "\"dielectric\" NamedMaterial \"outer\"");
+    const MaterialTable& table = built.scene.materials;
+    ASSERT_EQ(table.mixes().size(), 2u) << "each is made once";
+    EXPECT_EQ(table.size(), 2u);
+    const auto& shapes = built.scene.geometry.shapes;
+    EXPECT_EQ(shapes[0].material, shapes[2].material);
+    EXPECT_NE(shapes[0].material, shapes[1].material);
+    EXPECT_EQ(table.mixes()[shapes[0].material & ~kMixFlag].first, shapes[1].material);
+    EXPECT_TRUE(built.warnings.all().empty());
+}
+
+TEST(MaterialLibrary, AMixNeedsWhatItsMembersNeed) {
+    const std::string texture = "Texture \"t\" \"float\" \"checkerboard\" ";
+    const BuiltScene mask = withMaterial(texture + mixOf("[\"a\" \"b\"] \"texture amount\" \"t\""));
+    EXPECT_TRUE(mask.scene.materials.mixesAreTextured());
+    EXPECT_EQ(flagsOf(mask) & (kShapeNeedsUv | kShapeNeedsTangent), kShapeNeedsUv);
+    const std::string brushed =
+        "MakeNamedMaterial \"d\" \"string type\" \"conductor\" \"float uroughness\" .1 \"texture vroughness\" \"t\"";
+    EXPECT_EQ(flagsOf(withMaterial(texture + brushed + mixOf("[\"a\" \"d\"]"))) & (kShapeNeedsUv | kShapeNeedsTangent),
+              kShapeNeedsUv | kShapeNeedsTangent);
+    const BuiltScene holes = withMaterial(mixOf("[\"b\" \"c\"]") + "\nAreaLightSource \"diffuse\"");
+    EXPECT_TRUE(holes.warnsOf("cannot be an area light"));
+    EXPECT_FALSE(withMaterial(mixOf("[\"a\" \"b\"]") + "\nAreaLightSource \"diffuse\"").warnsOf("cannot be"));
+}
+
+TEST(MaterialLibrary, MixesThatMakeNoSenseAreErrors) {
+    for (const char* members : {"\"a\"", "[\"a\" \"b\" \"c\"]"})
+        EXPECT_NE(materialError(mixOf(members)).find("needs the names of two materials"), std::string::npos);
     EXPECT_NE(materialError("Material \"mix\"").find("needs the names of two materials"), std::string::npos);
+    EXPECT_NE(materialError(mixOf("[\"a\" \"bb\"]")).find("unknown material 'bb'; known: a, b, c"), std::string::npos);
+    const std::string mix = " \"string type\" \"mix\" \"string materials\" ";
+    EXPECT_EQ(materialError("MakeNamedMaterial \"m\"" + mix + "[\"m\" \"m\"] NamedMaterial \"m\""),
+              "test.pbrt:2:43: the material 'm' refers to itself: 'm' is mixed of 'm'");
+    EXPECT_EQ(materialError("MakeNamedMaterial \"k\"" + mix + "[\"m\" \"m\"] MakeNamedMaterial \"m\"" + mix +
+                            "[\"b\" \"n\"]\nMakeNamedMaterial \"n\"" + mix +
+                            "[\"b\" \"m\"] MakeNamedMaterial \"b\" \"string type\" \"diffuse\" NamedMaterial \"k\""),
+              "test.pbrt:3:43: the material 'm' refers to itself: 'm' is mixed of 'n' is mixed of 'm'");
 }
 
 TEST(MaterialLibrary, ADeepChainOfMixesIsAnError) {

@@ -45,6 +45,12 @@ Json countsOf(TypeList<Ts...> types, Count&& count) {
     return counts;
 }
 
+Json materialCounts(const MaterialTable& table) {
+    Json counts = countsOf(MaterialTypes{}, [&]<class T>() { return table.rows<T>().size(); });
+    if (!table.mixes().empty()) counts[MixMaterial::kInfo.name] = table.mixes().size();
+    return counts;
+}
+
 Json triple(const Vec3<float>& v) {
     return {v.x, v.y, v.z};
 }
@@ -70,7 +76,7 @@ Json facts(const std::string& path, const Scene& scene, const SceneInputs& input
         {"dropped_triangles", f.droppedTriangles},
         {"instances", f.instances},
         {"motion", scene.hasMotion},
-        {"materials", countsOf(MaterialTypes{}, [&]<class T>() { return scene.materials.rows<T>().size(); })},
+        {"materials", materialCounts(scene.materials)},
         {"lights", countsOf(LightTypes{}, [&]<class T>() { return scene.lights.rows<T>().size(); })},
         {"textures",
          {{"count", scene.textures.count()},

@@ -43,7 +43,7 @@ std::vector<Kind> kinds() {
     return {{"integrators", pluginsOf(IntegratorTypes{})}, {"samplers", pluginsOf(SamplerTypes{})},
             {"cameras", pluginsOf(CameraTypes{})},         {"filters", {filters.begin(), filters.end()}},
             {"lights", lightPlugins()},
-            {"materials", pluginsOf(MaterialTypes{})},     {"textures", pluginsOf(TextureTypes{})}};
+            {"materials", materialPlugins()},              {"textures", pluginsOf(TextureTypes{})}};
 }
 
 struct ListRequest {

@@ -70,6 +70,15 @@ void addFurnaces(std::vector<AnalyticScene>& scenes) {
     coloured.expected = {1 / .8, 1 / .5, 1 / .2};
     scenes.push_back(coloured);
 
+    AnalyticScene mixed = furnace("A1 mixed", cubeInside(), .55, .5, 60);
+    mixed.claim = "closed cavity, every wall emits .5 and is a mix of reflectances .2 and .9: as if all reflected .55";
+    mixed.text = sceneText({.camera = viewInside(), .maxDepth = 60},
+                           "MakeNamedMaterial \"dark\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .2 .2 .2 ]\n"
+                           "MakeNamedMaterial \"light\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .9 .9 .9 ]\n" +
+                               wallsThatEmit("Material \"mix\" \"string materials\" [ \"dark\" \"light\" ]\n", .5,
+                                             cubeInside()));
+    scenes.push_back(mixed);
+
     AnalyticScene ply = furnace("A1 ply", "Shape \"plymesh\" \"string filename\" \"cube.ply\"\n", .5, .5, 60);
     ply.files = {{"cube.ply", cubeInsidePly()}};
     scenes.push_back(ply);

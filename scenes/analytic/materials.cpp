@@ -1,4 +1,4 @@
-// What materials do to light: Fresnel's formulas, glass slabs, coats, microfacets, absorption.
+// What materials do to light: Fresnel's formulas, glass slabs, coats, microfacets, absorption, mixes.
 //
 // Microfacet values are the directional albedo of single scattering by visible facets (height-correlated Smith), found
 // by quadrature over the visible normals (Heitz 2018) and, for GGX with alpha = 1 at normal incidence, in closed form.
@@ -236,6 +236,51 @@ void addCoats(std::vector<AnalyticScene>& scenes) {
     }
 }
 
+/// A mix shows the mean of its members, weighed by the amount, under whatever light.
+void addMixes(std::vector<AnalyticScene>& scenes) {
+    const std::string members =
+        "MakeNamedMaterial \"red\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .8 .4 .1 ]\n"
+        "MakeNamedMaterial \"blue\" \"string type\" \"diffuse\" \"rgb reflectance\" [ .1 .2 .6 ]\n"
+        "MakeNamedMaterial \"black\" \"string type\" \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]\n"
+        "MakeNamedMaterial \"nothing\" \"string type\" \"interface\"\n";
+    const auto mixed = [](double redShare, double blueShare) {
+        return std::array{.8 * redShare + .1 * blueShare, .4 * redShare + .2 * blueShare, .1 * redShare + .6 * blueShare};
+    };
+    const auto add = [&](const std::string& id, const std::string& claim, const std::string& text,
+                         const std::array<double, 3>& expected) {
+        scenes.push_back(underSky(id, claim, members + text, 1, 0));
+        scenes.back().expected = expected;
+    };
+    const std::string ofBoth = "Material \"mix\" \"string materials\" [ \"red\" \"blue\" ] ";
+    add("M1", "mix of two paints, amount .3", ofBoth + "\"float amount\" .3\n", mixed(.7, .3));
+    add("M1 nested", "a mix of that mix with black, amount .5",
+        "MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" [ \"red\" \"blue\" ] "
+        "\"float amount\" .3\nMaterial \"mix\" \"string materials\" [ \"both\" \"black\" ]\n",
+        mixed(.35, .15));
+    // The four squares of the board meet in the middle of the picture.
+    add("M2", "mix of two paints, amount .1 and .7 on the squares of a board",
+        "Texture \"board\" \"float\" \"checkerboard\" \"float uscale\" 2 \"float vscale\" 2 \"float tex1\" .1 "
+        "\"float tex2\" .7\n" +
+            ofBoth + "\"texture amount\" \"board\"\n",
+        mixed(.6, .4));
+
+    const auto veil = [&](const std::string& solid, double holes) {
+        return members + fmt::format("Material \"mix\" \"string materials\" [ \"{}\" \"nothing\" ] \"float amount\" {}\n",
+                                     solid, holes);
+    };
+    scenes.push_back(underSky("M3", "a veil with a quarter of holes before a lamp of radiance 3",
+                              emitter(3, rectangleZ(-9, 9, -9, 9, -1, Facing::Positive)) + veil("red", .25), 1, 0));
+    scenes.back().expected = {.75 * .8 + .75, .75 * .4 + .75, .75 * .1 + .75};
+    // Light sampling cannot see through the holes, so this is all that scattered rays find.
+    scenes.push_back({.id = "M3 below",
+                      .claim = "sphere light of radius 1 at distance 1.25 through a veil with three quarters of holes",
+                      .text = sceneText({.camera = orthographicView({0, 0, .05}, {0, 0, 0}, {0, 1, 0}, 1e-3)},
+                                        emitter(1, sphere(1, {0, 0, 1.25})) + diffuse(.5) + floorSquare(10) +
+                                            veil("black", .75) + rectangleZ(-9, 9, -9, 9, .1, Facing::Positive)),
+                      .expected = grey(.75 * .5 / (1.25 * 1.25)),
+                      .samplesPerPixel = 256});
+}
+
 }  // namespace
 
 std::vector<AnalyticScene> analyticMaterials() {
@@ -246,6 +291,7 @@ std::vector<AnalyticScene> analyticMaterials() {
     addSlabs(scenes);
     addDiffuseFresnel(scenes);
     addCoats(scenes);
+    addMixes(scenes);
     return scenes;
 }
 

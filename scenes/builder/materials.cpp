@@ -82,9 +82,10 @@ std::string canonicalType(const std::string& type) {
 
 void checkType(const Entity& entity, const BuildContext& context) {
     const std::string type = canonicalType(entity.type);
-    if (type == "mix" || isOurs(type) || findStandIn(type)) return;
-    std::vector<std::string> known = pluginNames(MaterialTypes{});
-    known.emplace_back("mix");
+    if (type == MixMaterial::kInfo.name || isOurs(type) || findStandIn(type)) return;
+    std::vector<std::string> known;
+    for (const PluginInfo& plugin : materialPlugins())
+        known.emplace_back(plugin.name);
     for (const MaterialStandIn& s : materialStandIns())
         known.emplace_back(s.name);
     context.fail(entity.where, "unknown material " + quote(entity.type) + suggestion(entity.type, known));
@@ -149,15 +150,29 @@ SceneMaterial MaterialLibrary::getNamed(const std::string& name, SourcePosition 
         context_.fail(where, "unknown material " + quote(name) + suggestion(name, known));
     }
     const auto [place, isNew] = named_.try_emplace(found->second);
-    if (isNew)
-        place->second = make(scene_.namedMaterials[found->second], ownerName("material", name));
-    else if (!place->second)
-        context_.fail(where, "the material " + quote(name) + " refers to itself");
-    return *place->second;
+    if (!isNew) {
+        if (!place->second) failCycle(found->second, where);
+        return *place->second;
+    }
+    if (making_.size() >= kDeepest) context_.fail(where, fmt::format("mixes within mixes are more than {} deep", kDeepest));
+    making_.push_back(found->second);
+    const SceneMaterial made = make(scene_.namedMaterials[found->second], ownerName("material", name));
+    making_.pop_back();
+    place->second = made;
+    return made;
+}
+
+/// Says which mixes lead back to the material.
+void MaterialLibrary::failCycle(std::size_t material, SourcePosition where) const {
+    const auto nameOf = [&](std::size_t i) { return quote(scene_.namedMaterials[i].name); };
+    std::string cycle;
+    for (auto i = std::find(making_.begin(), making_.end(), material); i != making_.end(); ++i)
+        cycle += nameOf(*i) + " is mixed of ";
+    context_.fail(where, "the material " + nameOf(material) + " refers to itself: " + cycle + nameOf(material));
 }
 
 SceneMaterial MaterialLibrary::make(const Entity& entity, const std::string& owner) {
-    if (entity.type == "mix" && !isOurs("mix")) return makeMix(entity, owner);
+    if (entity.type == MixMaterial::kInfo.name) return makeMix(entity, owner);
     const MaterialStandIn* standIn = findStandIn(entity.type);
     if (!standIn || isOurs(entity.type)) return makeOurs(entity, owner);
     context_.warnOnce(
@@ -170,15 +185,15 @@ SceneMaterial MaterialLibrary::make(const Entity& entity, const std::string& own
 SceneMaterial MaterialLibrary::makeMix(const Entity& entity, const std::string& owner) {
     const Parameter* names = entity.parameters.find("string", "materials");
     if (!names || names->count() != 2) context_.fail(entity.where, owner + ": a mix needs the names of two materials");
-    context_.warnOnce("material mix", entity.where,
-                      "the material 'mix' is not there yet; the first of its two stands in for it");
-    entity.parameters.markAllUsed();
-    constexpr int kDeepest = 64;
-    if (++depth_ > kDeepest)
-        context_.fail(entity.where, fmt::format("mixes within mixes are more than {} deep", kDeepest));
-    const SceneMaterial first = getNamed(names->strings().front(), names->where);
-    --depth_;
-    return first;
+    const SceneMaterial first = getNamed(names->strings()[0], names->where);
+    const SceneMaterial second = getNamed(names->strings()[1], names->where);
+    SceneMaterialInput input(entity, owner, context_, textures_, table_.tables());
+    const ScalarInput amount = input.scalar("amount", 0.5f);
+    context_.warnUnused(entity.parameters, owner);
+    if (amount.texture == kNoTexture && amount.constant <= 0) return first;
+    if (amount.texture == kNoTexture && amount.constant >= 1) return second;
+    return {table_.addMix(first.handle, second.handle, amount), first.passThrough || second.passThrough,
+            first.needsUv || second.needsUv || input.usesTextures(), first.needsTangent || second.needsTangent};
 }
 
 SceneMaterial MaterialLibrary::makeOurs(const Entity& entity, const std::string& owner) {

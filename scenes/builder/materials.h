@@ -1,5 +1,6 @@
-// MaterialLibrary: the materials of a scene file, by name or number, made when a shape first uses them.
+// MaterialLibrary: the materials of a scene file, by name or number, made when a shape or a mix first uses them.
 //
+// Hostile input: mixes that refer to themselves, and chains deeper than kDeepest, are errors.
 // Thread safety: none; one instance belongs to one build.
 #pragma once
 
@@ -15,13 +16,15 @@ namespace penumbra::builder {
 /// A material as shapes need to know it.
 struct SceneMaterial {
     MaterialHandle handle;
-    bool passThrough = false;   ///< no surface: what is put on it does not shine
+    bool passThrough = false;   ///< no surface, or a mix with some: what is put on it does not shine
     bool needsUv = false;       ///< some texture looks at uv
     bool needsTangent = false;  ///< it is anisotropic
 };
 
 class MaterialLibrary {
 public:
+    static constexpr std::size_t kDeepest = 64;
+
     /// All must outlive this object. Fails where a material is of a type that nobody knows.
     MaterialLibrary(const SceneDescription& scene, BuildContext& context, TextureLibrary& textures,
                     MaterialTable& table);
@@ -34,6 +37,7 @@ private:
     SceneMaterial make(const Entity& entity, const std::string& owner);
     SceneMaterial makeOurs(const Entity& entity, const std::string& owner);
     SceneMaterial makeMix(const Entity& entity, const std::string& owner);
+    [[noreturn]] void failCycle(std::size_t material, SourcePosition where) const;
 
     const SceneDescription& scene_;
     BuildContext& context_;
@@ -41,8 +45,8 @@ private:
     MaterialTable& table_;
     std::map<std::string, std::size_t, std::less<>> names_;
     std::map<std::size_t, Made> named_;  ///< nothing: being made
+    std::vector<std::size_t> making_;    ///< the named ones being made, each a member of the one before
     std::map<int, SceneMaterial> unnamed_;
-    int depth_ = 0;
 };
 
 }  // namespace penumbra::builder

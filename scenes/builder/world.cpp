@@ -105,6 +105,7 @@ void WorldBuilder::addInstance(std::size_t group, const std::vector<Matrix4>& mo
 
 void WorldBuilder::finish() {
     Geometry& g = scene_.geometry;
+    scene_.materials.finish();
     reserveTables();
     g.groups.assign(groups_.size(), {});
     for (std::size_t i = 0; i < groups_.size(); ++i) {

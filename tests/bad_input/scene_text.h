@@ -224,7 +224,12 @@ inline std::vector<Case> meaningCases() {
         {"material of itself",
          world("MakeNamedMaterial \"m\" \"string type\" \"mix\" \"string materials\" [\"m\" \"m\"]\nNamedMaterial \"m\" "
                "Shape \"sphere\""),
-         65, "error: scene.pbrt:2:43: the material 'm' refers to itself"},
+         65, "error: scene.pbrt:2:43: the material 'm' refers to itself: 'm' is mixed of 'm'"},
+        {"mix of a material that is not there",
+         material("\"mix\" \"string materials\" [\"m\" \"m\"]"), 65, "error: scene.pbrt:2:16: unknown material 'm'"},
+        {"mix of one", material("\"mix\" \"string materials\" \"m\""), 65,
+         "error: scene.pbrt:2:1: material 'mix': a mix needs the names of two materials"},
+        {"amount of a mix NaN", material("\"mix\" \"float amount\" nan"), 65, "error: scene.pbrt:2:31: expected a number"},
         {"object of itself", world("ObjectBegin \"o\"\nObjectInstance \"o\"\nObjectEnd"), 65,
          "error: scene.pbrt:3:1: 'ObjectInstance' inside 'ObjectBegin'"},
         {"unknown object", world("ObjectInstance \"o\""), 65, "error: scene.pbrt:2:1: unknown object 'o'"},
