@@ -1,32 +1,24 @@
 // SphereLight: a diffuse area light on a sphere, an ellipsoid (a sphere under any affine map) or a part of one.
 //
-// All work is done in object space, where the sphere has radius 1 and its centre at the origin; a direction w there
-// becomes M w in the world, and densities per solid angle change by |M w|^3 / |det M|. So scaled spheres are sampled
-// rightly too.
+// All work is done in the object space of its place (quadric_place.h), where the sphere has radius 1 and its centre at
+// the origin.
 //   - The whole sphere from outside: uniform in the cone that it subtends. Nothing cancels for small angles, because
 //     1 - cosMax = 1 / (d^2 (1 + cosMax)), nor near the surface, because cosMax^2 = (d - 1)(d + 1) / d^2.
 //   - The whole sphere from inside (it emits there if two-sided or reversed): uniform directions.
 //   - A part (zmin, zmax, phimax), whose inside may be seen through the opening, or any sphere with classicArea:
 //     uniform in the area of the unit sphere's part.
-//
-// Invariants: toWorld has the columns of M, toObject the rows of its inverse; |det M| inverseScale^3 = 1.
 #pragma once
 
-#include "core/math/matrix.h"
 #include "core/math/warps.h"
-#include "lights/area_light.h"
+#include "lights/quadric_place.h"
 
 namespace penumbra {
 
-struct SphereLight {
+struct SphereLight : QuadricPlace {
     static constexpr const PluginInfo& kInfo = kDiffuseAreaInfo;
     static constexpr bool kInfinite = false;
     static constexpr bool kDelta = false;
 
-    Vec3<float> center;
-    Vec3<float> toWorldX, toWorldY, toWorldZ;
-    Vec3<float> toObjectX, toObjectY, toObjectZ;
-    float inverseScale;
     float zMin, zMax, phiMax;  ///< of the unit sphere; -1, 1, 2 pi where it is whole
     float area;                ///< in the world
     Spectrum<float> radiance;
@@ -62,7 +54,7 @@ struct SphereView {
     Mask<F> outwards, inwards;  ///< emits to the outside, the inside of the sphere (not of its orientation)
 
     SphereView(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p) {
-        o = toObject(light, p - light(&SphereLight::center));
+        o = QuadricPlace::toObject(light, p - light(&SphereLight::center));
         d = length(o);
         excess = (d - F(1.f)) * (d + F(1.f));
         inside = d < F(1.f);
@@ -72,10 +64,6 @@ struct SphereView {
         const Mask<F> twoSided = hasFlag<F>(flags, kLightTwoSided), reversed = hasFlag<F>(flags, kLightReversed);
         outwards = select(reversed, twoSided, Mask<F>(true));
         inwards = twoSided | reversed;
-    }
-    static Vec3<F> toObject(const Records<F, SphereLight>& light, const Vec3<F>& v) {
-        return {dot(light(&SphereLight::toObjectX), v), dot(light(&SphereLight::toObjectY), v),
-                dot(light(&SphereLight::toObjectZ), v)};
     }
 
     /// 1 - cosine of the cone's half angle.
@@ -153,24 +141,16 @@ LightSample<F> SphereLight::sample(const Records<F, SphereLight>& light, const L
         pdf = select(view.byArea, view.pdfArea(light, q), pdf);
         valid = select(view.byArea, view.lit(q), valid);
     }
-    const Vec3<F> w = light(&SphereLight::toWorldX) * direction.x + light(&SphereLight::toWorldY) * direction.y +
-                      light(&SphereLight::toWorldZ) * direction.z;
-    const F stretch = length(w), relative = stretch * light(&SphereLight::inverseScale);
-    pdf = pdf * (relative * relative * relative);
-    return lightSample(valid & isFinite(pdf), w * (F(1.f) / stretch), distance * stretch, light(&SphereLight::radiance),
-                       pdf, hasFlag<F>(light(&SphereLight::flags), kLightUnmet));
+    return QuadricPlace::toWorld(light, valid, direction, distance, pdf);
 }
 
 template <class F>
 LightEval<F> SphereLight::evaluate(const Records<F, SphereLight>& light, const LightTables& tables,
                                    const LightHit<F>& hit) {
     const detail::SphereView<F> view(light, tables, hit.from);
-    const Vec3<F> q = view.toObject(light, hit.p - light(&SphereLight::center));
-    F pdf = select(view.byArea, view.pdfArea(light, q), view.pdfDirection());
-    // The unit direction w of the world is M^-1 w in object space, so the unit direction there is stretched by 1 /
-    // |M^-1 w|.
-    const F relative = light(&SphereLight::inverseScale) / length(view.toObject(light, hit.wi));
-    pdf = pdf * (relative * relative * relative);
+    const Vec3<F> q = QuadricPlace::toObject(light, hit.p - light(&SphereLight::center));
+    const F pdf =
+        select(view.byArea, view.pdfArea(light, q), view.pdfDirection()) * QuadricPlace::densityInWorld(light, hit.wi);
     return lightEval(view.lit(q) & isFinite(pdf), light(&SphereLight::radiance), pdf);
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "core/base/error.h"
+#include "lights/area_cylinder.h"
 #include "lights/area_disk.h"
 #include "lights/area_rectangle.h"
 #include "lights/area_sphere.h"
@@ -28,8 +29,9 @@
 
 namespace penumbra {
 
-using LightTypes = TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, PointLight, SpotLight,
-                            GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight>;
+using LightTypes =
+    TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, CylinderLight, PointLight, SpotLight,
+             GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight>;
 
 /// What `list lights` shows: each plug-in once, though several types (the shapes of an area light) share it.
 std::vector<PluginInfo> lightPlugins();

@@ -1,5 +1,5 @@
-// Spheres and disks: intersections against double precision at all sizes, parts, limits of the ray; rays that leave the
-// surface do not meet it again.
+// Spheres, cylinders and disks: intersections against double precision at all sizes, parts, limits of the ray; rays
+// that leave the surface do not meet it again.
 #include "core/geometry/quadrics.h"
 
 #include "core/geometry/surface_point.h"
@@ -37,6 +37,23 @@ QuadricRecord ring() {
     return q;
 }
 
+QuadricRecord cylinder(double radius) {
+    QuadricRecord q = sphere(radius);
+    q.kind = ShapeKind::Cylinder;
+    return q;
+}
+QuadricRecord partOfCylinder() {
+    QuadricRecord q = cylinder(0.7);
+    q.zMin = -0.4f;
+    q.zMax = 0.9f;
+    q.phiMax = 4;
+    return q;
+}
+const std::vector<QuadricRecord>& allKinds() {
+    static const std::vector<QuadricRecord> list{sphere(1), partOfSphere(), ring(), cylinder(1), partOfCylinder()};
+    return list;
+}
+
 /// The nearest hit in (0, far), by the textbook; 0 where there is none. `edge`: how near it is to where that changes.
 double exactDistance(const QuadricRecord& q, Vec3d o, Vec3d d, double far, double& edge) {
     std::vector<double> roots;
@@ -44,7 +61,10 @@ double exactDistance(const QuadricRecord& q, Vec3d o, Vec3d d, double far, doubl
     if (q.kind == ShapeKind::Disk) {
         roots = {(q.zMin - o.z) / d.z};
     } else {
-        const double a = dot(d, d), b = dot(o, d) / a, c = (dot(o, o) - double(q.radius) * q.radius) / a;
+        const bool round = q.kind == ShapeKind::Sphere;
+        const Vec3d from{o.x, o.y, round ? o.z : 0}, along{d.x, d.y, round ? d.z : 0};
+        const double a = dot(along, along), b = dot(from, along) / a;
+        const double c = (dot(from, from) - double(q.radius) * q.radius) / a;
         edge = std::abs(b * b - c) / (double(q.radius) * q.radius);
         if (b * b < c) return 0;
         roots = {-b - std::sqrt(b * b - c), -b + std::sqrt(b * b - c)};
@@ -62,7 +82,8 @@ double exactDistance(const QuadricRecord& q, Vec3d o, Vec3d d, double far, doubl
             edge = std::min({edge, std::abs(rho - q.radius), std::abs(rho - q.innerRadius)});
         } else {
             in = in && p.z >= q.zMin && p.z <= q.zMax;
-            if (q.zMin > -q.radius) edge = std::min({edge, std::abs(p.z - q.zMin), std::abs(p.z - q.zMax)});
+            if (q.zMin > -q.radius || q.kind == ShapeKind::Cylinder)
+                edge = std::min({edge, std::abs(p.z - q.zMin), std::abs(p.z - q.zMax)});
         }
         if (in) return t;
     }
@@ -71,7 +92,7 @@ double exactDistance(const QuadricRecord& q, Vec3d o, Vec3d d, double far, doubl
 
 TEST(Quadrics, HitsAgreeWithDoublePrecision) {
     Random random(1);
-    for (const QuadricRecord& q : {sphere(1), partOfSphere(), ring()}) {
+    for (const QuadricRecord& q : allKinds()) {
         int hits = 0, compared = 0;
         for (int i = 0; i < 20000; ++i) {
             const Vec3<float> o = rounded(random.inCube(i % 4 ? 2.5 : 0.5));
@@ -119,29 +140,52 @@ TEST(Quadrics, SpheresOfAllSizes) {
 /// From where rays start, outwards: nothing; inwards: the far side, not the near one again.
 TEST(Quadrics, RaysThatLeaveDoNotComeBack) {
     Random random(3);
-    for (const double radius : {1e-4, 1.0, 1e6}) {
-        const QuadricRecord q = sphere(radius);
-        const Records<float, QuadricRecord> record(&q, 0u);
-        for (int i = 0; i < 50000; ++i) {
-            const QuadricPoint<float> at = quadricPoint(record, rounded(normalized(random.inCube(1)) * radius));
-            Vec3<float> w = rounded(normalized(random.inCube(1)));
-            if (i % 4 == 0) w = normalize(w - at.normal * (dot(w, at.normal) * float(1 - 1e-4 * random())));  // grazing
-            const Vec3<float> o = offsetOrigin(at.p, at.error, at.normal, w);
-            const QuadricHit<float> hit = intersectQuadric(q, o, w, 0.f, kInfinity);
-            const float cosine = dot(w, at.normal);
-            if (!(cosine < 0)) {
-                ASSERT_FALSE(hit.hit) << "radius " << radius << " cosine " << cosine;
-            } else if (cosine < -0.01f) {
-                ASSERT_TRUE(hit.hit) << "radius " << radius << " cosine " << cosine;
-                ASSERT_NEAR(hit.t / radius, -2 * double(cosine), 1e-3);
+    for (const double radius : {1e-4, 1.0, 1e6})
+        for (const QuadricRecord& q : {sphere(radius), cylinder(radius)}) {
+            const Records<float, QuadricRecord> record(&q, 0u);
+            const bool round = q.kind == ShapeKind::Sphere;
+            for (int i = 0; i < 50000; ++i) {
+                const QuadricPoint<float> at = quadricPoint(record, rounded(normalized(random.inCube(1)) * radius));
+                Vec3<float> w = rounded(normalized(random.inCube(1)));
+                if (i % 4 == 0)
+                    w = normalize(w - at.normal * (dot(w, at.normal) * float(1 - 1e-4 * random())));  // grazing
+                const Vec3<float> o = offsetOrigin(at.p, at.error, at.normal, w);
+                const QuadricHit<float> hit = intersectQuadric(q, o, w, 0.f, kInfinity);
+                // Across a cylinder only the part of the direction that is across its axis moves on.
+                const float across = round ? 1.f : std::hypot(w.x, w.y);
+                const float cosine = dot(w, at.normal) / across, far = -2 * cosine / across;
+                const bool within = round || std::abs(at.p.z + far * float(radius) * w.z) < 0.999 * radius;
+                if (!(cosine < 0)) {
+                    ASSERT_FALSE(hit.hit) << "radius " << radius << " cosine " << cosine;
+                } else if (cosine < -0.01f && within) {
+                    ASSERT_TRUE(hit.hit) << "radius " << radius << " cosine " << cosine;
+                    ASSERT_NEAR(hit.t / radius, far, 1e-3 / across);
+                }
             }
         }
+}
+
+/// The surface at a hit: on it, with the normal outwards, and the parameters of the format.
+TEST(Quadrics, SurfaceOfCylinders) {
+    const QuadricRecord q = partOfCylinder();
+    const Records<float, QuadricRecord> record(&q, 0u);
+    Random random(5);
+    for (int i = 0; i < 1000; ++i) {
+        const double phi = 4 * random(), z = -0.4 + 1.3 * random();
+        const Vec3d normal{std::cos(phi), std::sin(phi), 0}, on = normal * q.radius + Vec3d{0, 0, z};
+        const QuadricPoint<float> at = quadricPoint(record, rounded(on + random.inCube(3e-6)));
+        ASSERT_NEAR(std::hypot(double(at.p.x), double(at.p.y)), q.radius,
+                    dot(widened(abs(at.normal)), widened(at.error)));
+        ASSERT_LT(length(widened(at.normal) - normal), 1e-5);
+        ASSERT_NEAR(at.uv.x, phi / 4, 3e-6);
+        ASSERT_NEAR(at.uv.y, (z + 0.4) / 1.3, 6e-6);
+        ASSERT_LT(length(normalized(widened(at.tangent)) - Vec3d{-normal.y, normal.x, 0}), 1e-5);
     }
 }
 
 TEST(Quadrics, EightLanesGiveTheBitsOfOne) {
     Random random(4);
-    for (const QuadricRecord& q : {sphere(1), partOfSphere(), ring()})
+    for (const QuadricRecord& q : allKinds())
         for (int i = 0; i < 2000; ++i) {
             Vec3<Lanes8f> o, d;
             Lanes8f far;
@@ -172,6 +216,10 @@ TEST(Quadrics, DegenerateRays) {
     EXPECT_FALSE(intersectQuadric(ring(), {0.5f, 0, 0.25f}, x, 0.f, kInfinity).hit);  // within its plane
     EXPECT_FALSE(intersectQuadric(ring(), {0.5f, 0, 0}, zero, 0.f, kInfinity).hit);
     EXPECT_FALSE(intersectQuadric(sphere(1), {0.5f, 0, 0}, zero, 0.f, kInfinity).hit);
+    EXPECT_FALSE(intersectQuadric(cylinder(1), {0.5f, 0, 0}, zero, 0.f, kInfinity).hit);
+    for (const float x : {0.f, 0.5f, 1.f, 2.f})  // along the axis: through the open ends, in the surface, outside
+        EXPECT_FALSE(intersectQuadric(cylinder(1), {x, 0, -3}, z, 0.f, kInfinity).hit) << x;
+    EXPECT_TRUE(intersectQuadric(cylinder(1), zero, x, 0.f, kInfinity).hit);
     EXPECT_TRUE(intersectQuadric(sphere(1), zero, z, 0.f, kInfinity).hit);  // from the centre
     const QuadricRecord q = sphere(1);
     const Records<float, QuadricRecord> record(&q, 0u);

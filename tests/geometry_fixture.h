@@ -205,7 +205,10 @@ private:
         if (q.kind == ShapeKind::Disk) {
             roots = {(q.zMin - from.z) / along.z};
         } else {
-            const double a = dot(along, along), b = dot(from, along), c = dot(from, from) - double(q.radius) * q.radius;
+            const double round = q.kind == ShapeKind::Sphere;
+            const double a = dot(along, along) - (1 - round) * along.z * along.z;
+            const double b = dot(from, along) - (1 - round) * from.z * along.z;
+            const double c = dot(from, from) - (1 - round) * from.z * from.z - double(q.radius) * q.radius;
             const double root = b * b - a * c;
             if (root >= 0) roots = {(-b - std::sqrt(root)) / a, (-b + std::sqrt(root)) / a};
         }
@@ -235,8 +238,12 @@ private:
             if (rho > q.radius || rho < q.innerRadius) return std::nullopt;
             hit.ng = {0, 0, 1};
             hit.v = (q.radius - rho) / (q.radius - q.innerRadius);
+        } else if (p.z < q.zMin || p.z > q.zMax) {
+            return std::nullopt;
+        } else if (q.kind == ShapeKind::Cylinder) {
+            hit.ng = Vec3d{p.x, p.y, 0} * (1.0 / q.radius);
+            hit.v = (p.z - q.zMin) / (double(q.zMax) - q.zMin);
         } else {
-            if (p.z < q.zMin || p.z > q.zMax) return std::nullopt;
             hit.ng = p * (1.0 / q.radius);
             const double theta = std::acos(std::clamp(p.z / q.radius, -1.0, 1.0));
             const double top = std::acos(double(q.zMax) / q.radius), bottom = std::acos(double(q.zMin) / q.radius);
@@ -248,8 +255,8 @@ private:
     const Geometry& g_;
 };
 
-/// Meshes flat and smooth with and without uv and tangents, whole and partial spheres, disks, as they are, mirrored, in
-/// instances and in moving instances; about five units across.
+/// Meshes flat and smooth with and without uv and tangents, partial spheres, cylinders and disks, as they are,
+/// mirrored, in instances and in moving instances; about five units across.
 class EverythingScene {
 public:
     Geometry geometry;
@@ -260,11 +267,15 @@ public:
         addMesh(smooth(icosphere(1, 0.7, -0.8)), kAll | kShapeFlipNormal);
         addQuadric(ShapeKind::Sphere, translation(-1.2, 0.5, 0.8) * scaling(0.6, 0.6, 0.6), kAll);
         addQuadric(ShapeKind::Disk, translation(1.2, -1, 0.3) * rotation(50, 1, 2, 0), kAll | kShapeFlipNormal);
+        addQuadric(ShapeKind::Cylinder, translation(0.2, -1.5, -1.3) * rotation(75, 1, 0.5, 0) * scaling(0.4, 0.4, 0.6),
+                   kAll);
         const std::uint32_t worldShapes = std::uint32_t(geometry.shapes.size());
         addMesh(smooth(icosphere(1, 0.5)), kAll);
         addMesh(mapped(icosphere(0, 0.4, 0.6)), kAll);
         addQuadric(ShapeKind::Sphere, translation(-0.7, 0, 0) * rotation(20, 1, 0, 0) * scaling(0.3, 0.5, 0.4), kAll);
         addQuadric(ShapeKind::Disk, translation(0.5, -0.6, 0), kAll);
+        addQuadric(ShapeKind::Cylinder, translation(0, -0.3, -0.6) * rotation(30, 0, 1, 1) * scaling(0.2, 0.3, 0.4),
+                   kAll | kShapeFlipNormal);
         geometry.groups = {{0, worldShapes}, {worldShapes, std::uint32_t(geometry.shapes.size()) - worldShapes}};
 
         const Matrix4 a = translation(1.4, 1.2, -1) * rotation(70, 1, -1, 2) * scaling(1.2, 0.7, 1);

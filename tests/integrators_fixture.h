@@ -91,6 +91,8 @@ AttributeBegin
   Translate 0 .6 0
   Rotate 90 1 0 0
   Shape "disk" "float radius" .2
+  Translate 0 -.1 -.3
+  Shape "cylinder" "float radius" .03 "float zmin" -.2 "float zmax" .2
 AttributeEnd
 Texture "wood" "spectrum" "imagemap" "string filename" "wood.pfm" "string filter" "trilinear" "float uscale" 2
 Texture "check" "spectrum" "checkerboard" "rgb tex1" [ .7 .6 .5 ] "rgb tex2" [ .2 .3 .2 ] "float uscale" 9 "float vscale" 9
@@ -138,6 +140,7 @@ AttributeBegin
 AttributeEnd
 ObjectBegin "stone"
   Material "coateddiffuse"
+  Shape "cylinder" "float radius" .1 "float phimax" 250
   Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0  0 0 1 ] "integer indices" [ 0 2 1 0 1 3 0 3 2 1 2 3 ]
   Translate 0 1 0
   Shape "sphere" "float radius" .3

@@ -200,6 +200,54 @@ struct LightCases<DiskLight> {
 };
 
 template <>
+struct LightCases<CylinderLight> {
+    static std::vector<LightCase> make(double scale) {
+        std::vector<LightCase> cases;
+        const double full = 2 * std::numbers::pi;
+        const auto add = [&](std::string name, Matrix4 m, double zMin, double zMax, double phiMax, Vec3d from,
+                             std::uint32_t flags = 0) {
+            LightCase c;
+            c.name = "cylinder " + name;
+            m = scaling(scale, scale, scale) * m;
+            c.from = rounded(from * scale);
+            CylinderLight light;
+            CylinderLight::make(m, 0.5, zMin, zMax, phiMax, kTestRadiance, flags, light);
+            c.lights.add(light);
+            c.meet = meet(c.from, m, zMin, zMax, phiMax);
+            cases.push_back(std::move(c));
+        };
+        const Matrix4 lying = translation(0, 0, 2) * rotation(90, 1, 0, 0);
+        add("across", lying, -1, 1, full, {0, 0, 0});
+        add("thin and long", lying * scaling(0.1, 0.1, 4), -1, 1, full, {0, 0, 0});
+        add("from inside, reversed", Matrix4{}, -1, 0.5, full, {0.1, 0.2, 0.1}, kLightReversed);
+        add("along its axis, two-sided", translation(0.2, 0, 2), -1, 1, full, {0, 0, 0}, kLightTwoSided);
+        add("gutter", lying, -0.5, 1, 3.5, {0, 0, 0}, kLightTwoSided);
+        add("elliptic and mirrored", translation(0, 0.5, 2) * rotation(40, 1, 2, 0) * scaling(-0.5, 1.5, 1), -0.9, 0.7,
+            5.0, {0, 0, 0}, kLightReversed);
+        return cases;
+    }
+
+private:
+    static std::function<std::vector<LightHit<float>>(const Vec3d&)> meet(const Vec3<float>& from, const Matrix4& m,
+                                                                          double zMin, double zMax, double phiMax) {
+        Matrix4 inverse;
+        invert(m, inverse);
+        return [=](const Vec3d& w) {
+            const Vec3d o = transformPoint(inverse, widened(from)), d = transformVector(inverse, w);
+            const double a = d.x * d.x + d.y * d.y, b = o.x * d.x + o.y * d.y, c = o.x * o.x + o.y * o.y - 0.25;
+            std::vector<LightHit<float>> hits;
+            if (b * b < a * c) return hits;
+            for (const double root : {-std::sqrt(b * b - a * c), std::sqrt(b * b - a * c)}) {
+                const double t = (root - b) / a, z = o.z + t * d.z, phi = std::atan2(o.y + t * d.y, o.x + t * d.x);
+                const bool exists = z >= zMin && z <= zMax && (phi < 0 ? phi + 2 * std::numbers::pi : phi) <= phiMax;
+                if (t > 0 && exists) hits.push_back(hitAt(from, w, t));
+            }
+            return hits;
+        };
+    }
+};
+
+template <>
 struct LightCases<PointLight> {
     static std::vector<LightCase> make(double scale) {
         LightCase c;

@@ -62,6 +62,13 @@ TEST(LightsRegistry, PowersOfTheOtherShapes) {
     EXPECT_NEAR(table.power(table.add(ellipsoid)), kPi * area, 0.01);
     EXPECT_NEAR(table.power(table.add(DiskLight::make({}, {3, 0, 0}, {0, 3, 0}, 0.5f, kPi, {0, 0, 1}, kWhite, 0))),
                 kPi * kPi * 9 * 0.75 / 2, 1e-4);
+    CylinderLight cylinder, elliptic;
+    ASSERT_TRUE(CylinderLight::make(translation(1, 2, 3), 2, -1, 3, 10, kWhite, 0, cylinder));
+    ASSERT_TRUE(CylinderLight::make(scaling(1, 2, 1), 1, 0, 1, 10, kWhite, kLightTwoSided, elliptic));
+    EXPECT_NEAR(table.power(table.add(cylinder)), 16 * kPi * kPi, 1e-3);
+    // The girth of an ellipse with the half axes 2 and 1: 8 E(e), e^2 = 3 / 4.
+    EXPECT_NEAR(table.power(table.add(elliptic)), 2 * kPi * 8 * std::comp_ellint_2(std::sqrt(0.75)), 1e-3);
+    EXPECT_FALSE(CylinderLight::make(scaling(1, 0, 1), 1, -1, 1, 7, kWhite, 0, cylinder));
     EXPECT_NEAR(table.power(table.add(TriangleLight::make({}, {2, 0, 0}, {0, 3, 0}, {0, 0, 1}, kWhite, 0))), 3 * kPi,
                 1e-5);
     EXPECT_NEAR(table.power(table.add(DistantLight{{0, 0, 1}, kWhite})), 4 * kPi, 1e-5);

@@ -108,17 +108,19 @@ void onOccluded(const RTCOccludedFunctionNArguments* a) {
     }
 }
 
-/// Bounds of the whole sphere or disk, a little widened for rounding.
+/// Bounds of the whole sphere, disk or cylinder, a little widened for rounding.
 void onBounds(const RTCBoundsFunctionArguments* a) {
     const auto& q = *static_cast<const QuadricRecord*>(a->geometryUserPtr);
-    const bool disk = q.kind == ShapeKind::Disk;
+    // A disk or cylinder is a circle that is shifted along its axis, a sphere a circle that turns.
+    const bool sphere = q.kind == ShapeKind::Sphere;
+    const float middle = sphere ? 0.f : 0.5f * (q.zMin + q.zMax), half = sphere ? 0.f : 0.5f * (q.zMax - q.zMin);
     float lower[3], upper[3];
     for (int i = 0; i < 3; ++i) {
         const float* row = q.worldFromObject.m + 4 * i;
         const float rx = row[0] * q.radius, ry = row[1] * q.radius;
-        const float rz = disk ? 0.f : row[2] * q.radius;
-        const float centre = row[3] + (disk ? row[2] * q.zMin : 0.f);
-        const float reach = sqrt(rx * rx + ry * ry + rz * rz);
+        const float rz = sphere ? row[2] * q.radius : 0.f;
+        const float centre = row[3] + row[2] * middle;
+        const float reach = sqrt(rx * rx + ry * ry + rz * rz) + abs(row[2]) * half;
         const float slack = (abs(centre) + reach + abs(row[3])) * 1e-6f;
         lower[i] = centre - reach - slack;
         upper[i] = centre + reach + slack;

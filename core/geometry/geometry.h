@@ -20,7 +20,7 @@ namespace penumbra {
 
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
-enum class ShapeKind : std::uint32_t { Mesh, Sphere, Disk };
+enum class ShapeKind : std::uint32_t { Mesh, Sphere, Disk, Cylinder };
 
 /// Bits of ShapeRecord::flags.
 inline constexpr std::uint32_t kShapeFlipNormal = 1;    ///< the geometric normal is the negative of what the shape itself gives
@@ -66,7 +66,7 @@ struct ShapeLanes {
     Mask<F> has(std::uint32_t flag) const { return (flags & UInt<F>(flag)) != UInt<F>(0u); }
 };
 
-/// A (part of a) sphere or an annulus, in object space: see PBRT-v4's sphere and disk.
+/// A (part of a) sphere, an annulus or an open cylinder, in object space: see PBRT-v4's sphere, disk and cylinder.
 struct QuadricRecord {
     AffineRecord worldFromObject, objectFromWorld;
     float radius = 1, innerRadius = 0;

@@ -1,7 +1,9 @@
-// Spheres and disks over lanes: intersection (called back by Embree with eight rays) and the surface at a hit.
+// Spheres, cylinders and disks over lanes: intersection (called back by Embree with eight rays) and the surface at a
+// hit.
 //
-// Precision: the near root is c / q with c = (|o| - r)(|o| + r), so a ray that starts just outside the surface never meets
-// it again by rounding; points of the sphere are projected back onto it.
+// Precision: the near root is c / q with c = (|o| - r)(|o| + r), so a ray that starts just outside the surface never
+// meets it again by rounding; points of spheres and cylinders are projected back onto them. A cylinder is a circle's
+// affair: all but its ends happens in the plane z = 0.
 #pragma once
 
 #include "core/geometry/geometry.h"
@@ -21,6 +23,8 @@ Mask<F> insideQuadricPart(const QuadricRecord& q, const Vec3<F>& p) {
     if (q.kind == ShapeKind::Sphere) {
         if (q.zMin > -q.radius) in = in & (p.z >= F(q.zMin));
         if (q.zMax < q.radius) in = in & (p.z <= F(q.zMax));
+    } else if (q.kind == ShapeKind::Cylinder) {
+        in = (p.z >= F(q.zMin)) & (p.z <= F(q.zMax));
     } else {
         const F d2 = p.x * p.x + p.y * p.y;
         in = (d2 <= F(q.radius * q.radius)) & (d2 >= F(q.innerRadius * q.innerRadius));
@@ -42,13 +46,16 @@ QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const V
         return {t, Mask<F>((t > near) & (t < far) & insideQuadricPart(q, p))};
     }
     const F r = F(q.radius);
-    const F a = dot(d, d), b = dot(o, d);
+    // Along the axis a cylinder has no extent to be met; a ray parallel to it gives 0 / 0, and no comparison passes.
+    const F across = F(q.kind == ShapeKind::Cylinder ? 0.f : 1.f);
+    const Vec3<F> from = {o.x, o.y, o.z * across}, along = {d.x, d.y, d.z * across};
+    const F a = dot(along, along), b = dot(from, along);
     // Distance of the line from the centre, by the point of closest approach: no cancellation for small or far spheres
     // (Haines et al. 2019, Ray Tracing Gems, chapter 7).
-    const Vec3<F> closest = o - d * (b / a);
+    const Vec3<F> closest = from - along * (b / a);
     const F discriminant = (r * r - dot(closest, closest)) * a;
     const F root = safeSqrt(discriminant);
-    const F distance = length(o);
+    const F distance = length(from);
     const F c = (distance - r) * (distance + r);
     const F s = -(b + copySign(root, b));
     const F t0 = s / a, t1 = c / s;
@@ -68,13 +75,16 @@ struct QuadricPoint {
 
 template <class F>
 QuadricPoint<F> quadricPoint(const Records<F, QuadricRecord>& q, const Vec3<F>& met) {
-    const Mask<F> disk = q(&QuadricRecord::kind) == UInt<F>(std::uint32_t(ShapeKind::Disk));
+    const UInt<F> kind = q(&QuadricRecord::kind);
+    const Mask<F> disk = kind == UInt<F>(std::uint32_t(ShapeKind::Disk));
+    const Mask<F> cylinder = kind == UInt<F>(std::uint32_t(ShapeKind::Cylinder));
     const F r = q(&QuadricRecord::radius);
     QuadricPoint<F> out;
-    const F scale = r / length(met);
-    const Vec3<F> onSphere = met * scale;
+    // What a sphere is in space, a cylinder is in the plane.
+    const Vec3<F> fromAxis = {met.x, met.y, select(cylinder, F(0.f), met.z)};
+    const Vec3<F> onSphere = fromAxis * (r / length(fromAxis));
     const Vec3<F> onDisk = {met.x, met.y, q(&QuadricRecord::zMin)};
-    out.p = select(disk, onDisk, onSphere);
+    out.p = select(disk, onDisk, Vec3<F>{onSphere.x, onSphere.y, select(cylinder, met.z, onSphere.z)});
     const F size = F(16 * 0x1p-24f) * r;
     out.error = {size, size, size};
     out.normal = select(disk, Vec3<F>{F(0.f), F(0.f), F(1.f)}, onSphere * (F(1.f) / r));
@@ -85,8 +95,10 @@ QuadricPoint<F> quadricPoint(const Records<F, QuadricRecord>& q, const Vec3<F>& 
     const F inner = q(&QuadricRecord::innerRadius);
     const F theta = acos(out.p.z / r);
     const F thetaTop = q(&QuadricRecord::thetaMin), thetaBottom = q(&QuadricRecord::thetaMax);
-    const F v = select(disk, (r - rho) / (r - inner), (theta - thetaBottom) / (thetaTop - thetaBottom));
-    out.uv = {u, v};
+    const F bottom = q(&QuadricRecord::zMin), top = q(&QuadricRecord::zMax);
+    const F round =
+        select(cylinder, (out.p.z - bottom) / (top - bottom), (theta - thetaBottom) / (thetaTop - thetaBottom));
+    out.uv = {u, select(disk, (r - rho) / (r - inner), round)};
     // dp/du is along phi; at the poles any direction will do.
     const Mask<F> pole = rho < F(1e-20f);
     out.tangent = select(pole, Vec3<F>{F(1.f), F(0.f), F(0.f)}, Vec3<F>{-out.p.y, out.p.x, F(0.f)});

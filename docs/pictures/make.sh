@@ -20,6 +20,7 @@ picture materials materials --spp 256
 for scene in absorption cornell dof environment lens mappings mixes motion panorama rough_glass spectra textures lights lamps; do
     picture $scene $scene --spp 256
 done
+picture shapes shapes --spp 256
 picture instances instances --spp 128
 picture orthographic orthographic
 picture furnace furnace

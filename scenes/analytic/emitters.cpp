@@ -88,6 +88,30 @@ void addDisks(std::vector<AnalyticScene>& scenes) {
     scenes.push_back(beside);
 }
 
+void addCylinders(std::vector<AnalyticScene>& scenes) {
+    // Howell B-31: an element and a right cylinder whose axis is parallel to it, over one end; here over the middle.
+    const double r = .5, height = 1.5, half = 1, l = half / r, d = height / r, a = (d + 1) * (d + 1) + l * l,
+                 b = (d - 1) * (d - 1) + l * l;
+    const double towardsOneEnd =
+        std::atan(l / std::sqrt(d * d - 1)) / d +
+        l * ((a - 2 * d) / (d * std::sqrt(a * b)) * std::atan(std::sqrt(a * (d - 1) / (b * (d + 1)))) -
+             std::atan(std::sqrt((d - 1) / (d + 1))) / d);
+    const AnalyticScene lying =
+        point("B22", "cylinder light of radius .5 and length 2 lying 1.5 over the receiver",
+              emitter(1, cylinder(r, 2 * half, "Translate 0 0 1.5 Rotate 90 1 0 0")), 2 * towardsOneEnd);
+    scenes.push_back(lying);
+    scenes.push_back(with(AnalyticScene::Strategy::LightSampling, lying));
+    scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, lying));
+    scenes.back().samplesPerPixel = 256;  // it fills a small part of the view
+    // From below, the inside of a tube covers what is between the cones of its ends.
+    scenes.push_back(
+        point("B23", "the inside of a tube of radius 1 that stands upright, from 1 to 3 above the receiver",
+              emitter(1, "ReverseOrientation\n" + cylinder(1, 2, "Translate 0 0 2")), kPi * (1. / 2 - 1. / 10)));
+    scenes.push_back(point("B23 half", "half of its girth: half of that",
+                           emitter(1, "ReverseOrientation\n" + cylinder(1, 2, "Translate 0 0 2", 180)),
+                           kPi / 2 * (1. / 2 - 1. / 10)));
+}
+
 void addRectangles(std::vector<AnalyticScene>& scenes) {
     scenes.push_back(point("B7", "square light 1 x 1 at height 1, the receiver under one corner",
                            emitter(1, rectangleZ(0, 1, 0, 1, 1, Facing::Negative)), underCorner(1, 1)));
@@ -370,6 +394,7 @@ std::vector<AnalyticScene> analyticEmitters() {
     std::vector<AnalyticScene> scenes;
     addSpheres(scenes);
     addDisks(scenes);
+    addCylinders(scenes);
     addRectangles(scenes);
     addManyLights(scenes);
     addSky(scenes);

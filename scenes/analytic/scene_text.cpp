@@ -109,6 +109,12 @@ std::string disk(double radius, Point c, Facing facing) {
                               facing == Facing::Negative ? "Rotate 180 1 0 0\n" : "", radius));
 }
 
+std::string cylinder(double radius, double length, const std::string& transform, double phiMax) {
+    return scoped(transform + fmt::format("\nShape \"cylinder\" \"float radius\" [ {} ] \"float zmin\" [ {} ] "
+                                          "\"float zmax\" [ {} ] \"float phimax\" [ {} ]\n",
+                                          radius, -length / 2, length / 2, phiMax));
+}
+
 std::string scoped(const std::string& text) {
     return "AttributeBegin\n" + text + "AttributeEnd\n";
 }

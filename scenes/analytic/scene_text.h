@@ -62,6 +62,9 @@ std::string sphere(double radius, Point centre = {});
 /// Radius and centre; the normal is along +z or -z.
 std::string disk(double radius, Point centre, Facing facing);
 
+/// About the z axis, its middle at the origin, then placed by `transform`.
+std::string cylinder(double radius, double length, const std::string& transform, double phiMax = 360);
+
 /// AttributeBegin ... AttributeEnd around it.
 std::string scoped(const std::string& text);
 

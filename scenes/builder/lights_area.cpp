@@ -145,12 +145,17 @@ void addQuadricLight(const AreaEmission& emission, const QuadricRecord& q, const
     const bool flipped = shape.flags & kShapeFlipNormal;
     shape.light = lights.size();
     // Power goes by the area in object space, as the format has it.
-    if (q.kind == ShapeKind::Sphere) {
+    if (q.kind != ShapeKind::Disk) {
         const double area = double(q.phiMax) * q.radius * (double(q.zMax) - q.zMin);
-        SphereLight light;
-        SphereLight::make(worldFromObject, q.radius, q.zMin, q.zMax, q.phiMax, emission.radianceOf(area),
-                          flags | (flipped ? kLightReversed : 0u), light);
-        lights.add(light);
+        const auto add = [&]<class Light>(Light light) {
+            const bool made = Light::make(worldFromObject, q.radius, q.zMin, q.zMax, q.phiMax,
+                                          emission.radianceOf(area), flags | (flipped ? kLightReversed : 0u), light);
+            if (made)
+                lights.add(light);
+            else
+                shape.light = kNone;
+        };
+        q.kind == ShapeKind::Sphere ? add(SphereLight{}) : add(CylinderLight{});
         return;
     }
     const double inner = double(q.innerRadius) / q.radius;

@@ -17,7 +17,7 @@ const std::vector<std::string>& knownShapes() {
 }
 
 bool isQuadric(const ShapeEntity& shape) {
-    return shape.type == "sphere" || shape.type == "disk";
+    return shape.type == "sphere" || shape.type == "disk" || shape.type == "cylinder";
 }
 
 /// Whether the geometric normal is the other one than the shape itself would have: its own orientation, and a mirrored
@@ -71,7 +71,7 @@ bool ShapeBuilder::isLeftOut(const ShapeEntity& shape) {
     const std::vector<std::string>& known = knownShapes();
     if (std::find(known.begin(), known.end(), shape.type) == known.end())
         context_.fail(shape.where, "unknown shape " + quote(shape.type) + suggestion(shape.type, known));
-    const bool leftOut = shape.type == "cylinder" || shape.type == "curve";
+    const bool leftOut = shape.type == "curve";
     if (leftOut)
         context_.warnOnce("shape " + shape.type, shape.where,
                           "the shape " + quote(shape.type) + " is not there yet and is left out");
@@ -128,10 +128,10 @@ TriangleMesh ShapeBuilder::readPlyMesh(const ShapeEntity& shape) {
 
 bool ShapeBuilder::buildQuadric(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
     QuadricRecord& q = out.quadric;
-    q = shape.type == "sphere" ? readSphere(shape) : readDisk(shape);
+    q = shape.type == "sphere" ? readSphere(shape) : shape.type == "disk" ? readDisk(shape) : readCylinder(shape);
     out.record.kind = q.kind;
     const bool isEmptyPart =
-        !(q.phiMax > 0) || (q.kind == ShapeKind::Sphere ? !(q.zMax > q.zMin) : !(q.innerRadius < q.radius));
+        !(q.phiMax > 0) || (q.kind == ShapeKind::Disk ? !(q.innerRadius < q.radius) : !(q.zMax > q.zMin));
     Matrix4 objectFromGroup;
     const bool invertible = invert(place.groupFromObject, objectFromGroup);
     q.worldFromObject = toRecord(place.groupFromObject);
@@ -165,6 +165,18 @@ QuadricRecord ShapeBuilder::readDisk(const ShapeEntity& shape) {
     q.radius = context_.number(p, "radius", 1, 1e-12f, 1e12f);
     q.innerRadius = context_.number(p, "innerradius", 0, 0, 1e12f);
     q.zMin = q.zMax = context_.number(p, "height", 0, -1e12f, 1e12f);
+    q.phiMax = readPhiMax(context_, p);
+    return q;
+}
+
+QuadricRecord ShapeBuilder::readCylinder(const ShapeEntity& shape) {
+    const ParameterSet& p = shape.parameters;
+    QuadricRecord q;
+    q.kind = ShapeKind::Cylinder;
+    q.radius = context_.number(p, "radius", 1, 1e-12f, 1e12f);
+    const float a = context_.number(p, "zmin", -1, -1e12f, 1e12f), b = context_.number(p, "zmax", 1, -1e12f, 1e12f);
+    q.zMin = std::min(a, b);
+    q.zMax = std::max(a, b);
     q.phiMax = readPhiMax(context_, p);
     return q;
 }

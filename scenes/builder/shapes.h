@@ -50,6 +50,7 @@ private:
     TriangleMesh readBilinearMesh(ShapeEntity& shape);
     QuadricRecord readSphere(const ShapeEntity& shape);
     QuadricRecord readDisk(const ShapeEntity& shape);
+    QuadricRecord readCylinder(const ShapeEntity& shape);
     float readAlpha(const ShapeEntity& shape);
     void readEmission(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     void readMedia(const ShapeEntity& shape, BuiltShape& out);
