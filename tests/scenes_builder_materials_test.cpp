@@ -281,16 +281,13 @@ TEST(TextureLibrary, ATextureIsMadeOnceForEachRole) {
     EXPECT_GT(built.scene.facts.textureBytes, 0u);
 }
 
-TEST(TextureLibrary, ClassesThatAreNotThereYetWarnOnce) {
+TEST(TextureLibrary, PtexIsRefusedWithAWarning) {
     const BuiltScene built = withMaterial(
-        "Texture \"m\" \"spectrum\" \"mix\" \"rgb tex1\" [.1 .2 .3] \"float amount\" 0.5\n"
-        "Texture \"n\" \"float\" \"fbm\"\nTexture \"n2\" \"float\" \"fbm\"\n"
-        "Material \"coateddiffuse\" \"texture reflectance\" \"m\" \"texture uroughness\" \"n\" \"texture vroughness\" "
-        "\"n2\"");
-    EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).reflectance.constant.g, 0.2f);
-    EXPECT_EQ(onlyMaterial<CoatedDiffuseMaterial>(built).uAlpha.constant, std::sqrt(0.5f));
-    EXPECT_EQ(built.warnings.all().size(), 2u);
-    EXPECT_TRUE(built.warnsOf("test.pbrt:3:1: the texture class 'mix' is not there yet"));
+        "Texture \"p\" \"spectrum\" \"ptex\" \"string filename\" \"p.ptx\"\n"
+        "Material \"diffuse\" \"texture reflectance\" \"p\"");
+    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(built).reflectance.constant.g, 0.5f);
+    EXPECT_EQ(built.warnings.all().size(), 1u);
+    EXPECT_TRUE(built.warnsOf("test.pbrt:3:1: texture 'p': Ptex files are not supported"));
 }
 
 TEST(TextureLibrary, ATextureLiesInTheSpaceOfItsDirective) {

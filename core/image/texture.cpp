@@ -8,11 +8,6 @@
 namespace penumbra {
 namespace {
 
-template <class T>
-concept EvaluatedTexture = requires(const T& t, const TextureContext<float>& at, const TextureTables& tables) {
-    t.template evaluate<float>(at, tables);
-};
-
 template <class V, class F>
 V constantOf(const TextureOperand& operand) {
     if constexpr (std::is_same_v<V, F>) {
@@ -96,11 +91,21 @@ V TextureTables::value(const TextureOperand& operand, const TextureContext<F>& a
 }
 
 template <class V, class F>
+V TextureTables::blend(const TextureOperand& a, const TextureOperand& b, const F& weight,
+                       const TextureContext<F>& at) const {
+    const Mask<F> needsA = weight != F(1.f), needsB = weight != F(0.f);
+    const V valueA = any(needsA) ? value<V>(a, at) : V{};
+    const V valueB = any(needsB) ? value<V>(b, at) : V{};
+    return select(!needsB, valueA, select(!needsA, valueB, valueA + (valueB - valueA) * weight));
+}
+
+template <class V, class F>
 V TextureTables::evaluate(std::uint32_t id, const TextureContext<F>& at) const {
     const Node& node = nodes_[id];
     V out{};
     dispatch(TextureTypes{}, node.tag, [&]<class T>() {
-        if constexpr (EvaluatedTexture<T>) out = rows<T>()[node.row].template evaluate<V>(at, *this);
+        if constexpr (requires(const T& t) { t.template evaluate<V>(at, *this); })
+            out = rows<T>()[node.row].template evaluate<V>(at, *this);
     });
     return out;
 }

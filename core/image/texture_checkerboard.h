@@ -39,10 +39,7 @@ struct CheckerboardTexture {
     V evaluate(const TextureContext<F>& at, const TextureTables& tables) const {
         const F board = isSolid ? cubes(at) : squares(at);
         const F weight = clamp(F(0.5f) + F(0.5f) * board, F(0.f), F(1.f));  // NaN becomes 0
-        const Mask<F> needsEven = weight > F(0.f), needsOdd = weight < F(1.f);
-        const V a = any(needsEven) ? tables.value<V>(even, at) : V{};
-        const V b = any(needsOdd) ? tables.value<V>(odd, at) : V{};
-        return select(!needsOdd, a, select(!needsEven, b, b + (a - b) * weight));
+        return tables.blend<V>(odd, even, weight, at);
     }
 
     /// Stripes of width 1, +1 where floor(x) is even and -1 where it is odd, under a tent of half-width r.

@@ -4,14 +4,11 @@
 #include <string>
 
 namespace penumbra {
-namespace {
 
 Vec3<float> readVector(const ParameterSet& parameters, std::string_view name, const Vec3<float>& otherwise) {
     const std::vector<float>& v = parameters.numbers("vector3", name);
     return v.size() < 3 ? otherwise : Vec3<float>{v[0], v[1], v[2]};
 }
-
-}  // namespace
 
 TextureSpace TextureSpace::make(TextureInput& input) {
     Matrix4 fromWorld;

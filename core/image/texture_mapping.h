@@ -23,6 +23,9 @@
 
 namespace penumbra {
 
+/// The "vector3" parameter of that name.
+Vec3<float> readVector(const ParameterSet& parameters, std::string_view name, const Vec3<float>& otherwise);
+
 struct TextureSpace {
     /// Fails where the transformation at the texture has no inverse.
     static TextureSpace make(TextureInput& input);
@@ -50,6 +53,12 @@ struct TextureSpace {
     Vec3<F> widths(const TextureContext<F>& at) const {
         const F zero(0.f), one(1.f);
         return {width(at, {one, zero, zero}), width(at, {zero, one, zero}), width(at, {zero, zero, one})};
+    }
+
+    /// Of directions within the surface, in the mean of their squares.
+    template <class F>
+    F footprint(const TextureContext<F>& at) const {
+        return length(widths(at)) * F(0.70710678f);
     }
 
     AffineRecord fromWorld{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};

@@ -2,12 +2,12 @@
 //
 // A texture class is a plain struct (one row of a table) with
 //   static constexpr PluginInfo kInfo;
-//   static TextureOperand make(TextureInput& input, TextureTables& tables);   // cold; tables.append(row, ...) or a
-//   constant template <class V, class F> V evaluate(const TextureContext<F>& at, const TextureTables& tables) const; //
-//   hot
+//   static TextureOperand make(TextureInput&, TextureTables&);   // cold; tables.append(row, ...) or a constant
+//   template <class V, class F> V evaluate(const TextureContext<F>&, const TextureTables&) const;   // hot
 // in a file of its own and an entry in texture_registry.h. V is Spectrum<F> or F. A row holds one texture, so its
 // members are the same in all lanes; a group of lanes with several textures is evaluated once for each. Other textures
-// are read by tables.value<V>(operand, at). A class whose textures are all constant has no evaluate.
+// are read by tables.value<V>(operand, at). A class whose textures are all constant has no evaluate, and one whose make
+// refuses a kind (texture_octaves.h) has it for the other alone.
 //
 // Thread safety: make from one thread; after that immutable.
 #pragma once
@@ -50,6 +50,10 @@ public:
 
     template <class V, class F>
     V value(const TextureOperand& operand, const TextureContext<F>& at) const;
+    /// a where the weight is 0, b where it is 1, and between and beyond a + (b - a) weight. Where only one counts, only
+    /// that is looked up.
+    template <class V, class F>
+    V blend(const TextureOperand& a, const TextureOperand& b, const F& weight, const TextureContext<F>& at) const;
     /// REQUIRES: id < count().
     template <class V, class F>
     V evaluate(std::uint32_t id, const TextureContext<F>& at) const;

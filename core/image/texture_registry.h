@@ -2,16 +2,27 @@
 // TextureTypes; see texture_plugin.h. A make() that is not in its class's header needs this file.
 #pragma once
 
+#include "core/image/texture_bilerp.h"
 #include "core/image/texture_checkerboard.h"
 #include "core/image/texture_constant.h"
+#include "core/image/texture_directionmix.h"
+#include "core/image/texture_dots.h"
+#include "core/image/texture_fbm.h"
 #include "core/image/texture_imagemap.h"
+#include "core/image/texture_marble.h"
+#include "core/image/texture_mix.h"
+#include "core/image/texture_ptex.h"
 #include "core/image/texture_scale.h"
+#include "core/image/texture_windy.h"
+#include "core/image/texture_wrinkled.h"
 
 #include <tuple>
 
 namespace penumbra {
 
-using TextureTypes = TypeList<ConstantTexture, ImageTexture, ScaleTexture, CheckerboardTexture>;
+using TextureTypes = TypeList<ConstantTexture, ImageTexture, ScaleTexture, CheckerboardTexture, MixTexture,
+                              DirectionMixTexture, BilerpTexture, DotsTexture, FbmTexture, WrinkledTexture,
+                              WindyTexture, MarbleTexture, PtexTexture>;
 
 struct TextureRows {
     template <class... Ts>

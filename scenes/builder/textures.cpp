@@ -7,24 +7,6 @@
 namespace penumbra::builder {
 namespace {
 
-/// The format's textures that are not there yet, and what stands in: one of their own parameters, else a grey.
-struct TextureStandIn {
-    const char* name;
-    const char* parameter;  ///< null: the constant
-    float otherwise;
-};
-constexpr TextureStandIn kStandIns[] = {
-    {"mix", "tex1", 0.f},     {"directionmix", "tex1", 0.f}, {"bilerp", "v00", 0.f},
-    {"dots", "inside", 1.f},  {"fbm", nullptr, 0.5f},        {"wrinkled", nullptr, 0.5f},
-    {"windy", nullptr, 0.5f}, {"marble", nullptr, 0.5f},     {"ptex", nullptr, 0.5f},
-};
-
-const TextureStandIn* findStandIn(const std::string& name) {
-    const auto found = std::find_if(std::begin(kStandIns), std::end(kStandIns),
-                                    [&](const TextureStandIn& s) { return name == s.name; });
-    return found == std::end(kStandIns) ? nullptr : found;
-}
-
 class SceneTextureInput final : public TextureInput {
 public:
     SceneTextureInput(const TextureEntity& texture, std::optional<SpectrumRole> role, TextureLibrary& library,
@@ -74,11 +56,9 @@ TextureLibrary::TextureLibrary(const SceneDescription& scene, BuildContext& cont
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const TextureEntity& t = scene.textures[i];
         (t.isFloat ? floats_ : spectra_)[t.name] = i;
-        if (Textures::knows(t.type) || findStandIn(t.type)) continue;
-        std::vector<std::string> known = pluginNames(TextureTypes{});
-        for (const TextureStandIn& s : kStandIns)
-            known.emplace_back(s.name);
-        context.fail(t.where, "unknown texture class " + quote(t.type) + suggestion(t.type, known));
+        if (!Textures::knows(t.type))
+            context.fail(t.where,
+                         "unknown texture class " + quote(t.type) + suggestion(t.type, pluginNames(TextureTypes{})));
     }
 }
 
@@ -121,14 +101,6 @@ TextureOperand TextureLibrary::get(Use use, SourcePosition where) {
 
 TextureOperand TextureLibrary::make(const TextureEntity& texture, std::optional<SpectrumRole> role) {
     SceneTextureInput input(texture, role, *this, context_);
-    if (const TextureStandIn* standIn = findStandIn(texture.type); standIn && !Textures::knows(texture.type)) {
-        context_.warnOnce("texture " + texture.type, texture.where,
-                          fmt::format("the texture class '{}' is not there yet; {} stands in for it", standIn->name,
-                                      standIn->parameter ? fmt::format("its '{}'", standIn->parameter) : "a grey"));
-        texture.parameters.markAllUsed();
-        return standIn->parameter ? input.value(standIn->parameter, standIn->otherwise)
-                                  : TextureOperand::number(standIn->otherwise);
-    }
     const TextureOperand operand = table_.add(texture.type, input);
     context_.warnUnused(texture.parameters, ownerName("texture", texture.name));
     return operand;

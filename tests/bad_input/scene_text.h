@@ -212,6 +212,10 @@ inline std::vector<Case> meaningCases() {
     const auto material = [](const std::string& text) { return world("Material " + text + " Shape \"sphere\""); };
     const auto light = [](const std::string& text) { return world("LightSource " + text); };
     const auto sphere = [](const std::string& text) { return world("Shape \"sphere\" " + text); };
+    const auto noise = [](const std::string& text) {
+        return world("Texture \"t\" \"float\" \"fbm\" " + text +
+                     "\nMaterial \"dielectric\" \"texture roughness\" \"t\" Shape \"sphere\"");
+    };
     return {
         {"texture of itself",
          world("Texture \"t\" \"float\" \"scale\" \"texture tex\" \"t\"\nMaterial \"dielectric\" \"texture roughness\" \"t\"\n"
@@ -236,6 +240,9 @@ inline std::vector<Case> meaningCases() {
         {"unknown material", world("NamedMaterial \"m\"\nShape \"sphere\""), 65, "error: scene.pbrt:2:1: unknown material 'm'"},
         {"unknown texture", material("\"diffuse\" \"texture reflectance\" \"t\""), 65,
          "error: scene.pbrt:2:20: unknown spectrum texture 't'"},
+        {"two billion octaves of noise", noise("\"integer octaves\" 2000000000"), 65,
+         "error: scene.pbrt:2:1: texture 't': octaves 2000000000 is not between 0 and 32"},
+        {"noise without end", noise("\"integer octaves\" 32 \"float roughness\" 1e38"), 0, ""},
         {"unknown medium", world("MediumInterface \"m\" \"\"\nShape \"sphere\""), 65,
          "error: scene.pbrt:2:1: unknown medium 'm'"},
         {"name twice", world("Texture \"t\" \"float\" \"constant\"\nTexture \"t\" \"float\" \"constant\""), 65,
