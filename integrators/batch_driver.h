@@ -99,6 +99,25 @@ F coneWidthAt(const Scene& scene, const RayGroup<F>& g, const Hit<F>& hit) {
     return g.coneWidth + F(scene.camera.coneSpread()) * hit.t;
 }
 
+/// Tilts the shading frame by the reliefs of the materials that were met (materials/relief.h). Never inlined: few
+/// materials have one, and the code of all is not to grow by it.
+template <class F>
+[[gnu::noinline]] void applyRelief(const Scene& scene, const RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material,
+                                   SurfacePoint<F>& at) noexcept {
+    const SurfaceDerivatives<F> derivatives = surfaceDerivatives(scene.geometry, hit, at, g.time);
+    const ShadingContext<F> context = shadingContext(scene, at, coneWidthAt(scene, g, hit));
+    at.frame = reliefFrame(scene.materials.reliefs<F>(material), scene.textures, context.at, derivatives, at.frame);
+}
+
+/// The surface where the ray met the material, as it is shaded.
+template <class F, class M>
+SurfacePoint<F> shadedPoint(const Scene& scene, const RayGroup<F>& g, const Hit<F>& hit,
+                            const UInt<F>& material) noexcept {
+    SurfacePoint<F> at = surfacePoint(scene.geometry, hit, g.origin, g.direction, g.time);
+    if (scene.materials.template hasRelief<M>()) applyRelief(scene, g, hit, material, at);
+    return at;
+}
+
 namespace detail {
 
 /// Groups are filled in place and passed by reference: at 700 bytes a copy costs more than some of the steps.

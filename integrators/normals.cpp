@@ -12,8 +12,8 @@ public:
     explicit NormalsShader(const IntegratorSettings&) {}
 
     template <class F, class M>
-    void shade(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const UInt<F>&) const noexcept {
-        const SurfacePoint<F> at = surfacePoint(step.scene.geometry, hit, g.origin, g.direction, g.time);
+    void shade(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
+        const SurfacePoint<F> at = shadedPoint<F, M>(step.scene, g, hit, material);
         const Vec3<F> n = flipSign(dot(at.frame.n, g.direction) > F(0.f), at.frame.n) * F(0.5f);
         step.add(g, {n.x + F(0.5f), n.y + F(0.5f), n.z + F(0.5f)});
     }

@@ -21,7 +21,7 @@ public:
     template <class F, class M>
     void shade(Step<F>& step, RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
         const Scene& scene = step.scene;
-        const SurfacePoint<F> at = surfacePoint(scene.geometry, hit, g.origin, g.direction, g.time);
+        const SurfacePoint<F> at = shadedPoint<F, M>(scene, g, hit, material);
         absorb(scene, g.medium, hit.t, g.throughput);
         if constexpr (M::kPassThrough) {
             passThrough(step, g, hit, at);

@@ -17,6 +17,12 @@ void MaterialTable::finish() {
         mixes_[i].second = id(mixMembers_[i][1]);
     }
     mixMembers_ = {};
+    if (!given_.empty()) reliefs_.resize(size());
+    for (const auto& [handle, relief] : given_) {
+        reliefs_[id(handle)] = relief;
+        hasRelief_[handle.tag] = true;
+    }
+    given_ = {};
     mixesAreTextured_ =
         std::any_of(mixes_.begin(), mixes_.end(), [](const MixMaterial& m) { return m.amount.texture != kNoTexture; });
 }

@@ -19,12 +19,14 @@
 #include "materials/diffuse_transmission.h"
 #include "materials/interface.h"
 #include "materials/mix.h"
+#include "materials/relief.h"
 #include "materials/thin_dielectric.h"
 
 #include <array>
 #include <concepts>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 namespace penumbra {
 
@@ -93,6 +95,8 @@ public:
         mixMembers_.push_back({first, second});
         return {kTags, std::uint32_t(mixes_.size() - 1)};
     }
+    /// REQUIRES: not the handle of a mix, whose members have reliefs of their own.
+    void setRelief(MaterialHandle handle, const ReliefRecord& relief) { given_.push_back({handle, relief}); }
     MaterialTables& tables() { return tables_; }
 
     /// Call once, when all materials are in and before the table is read.
@@ -106,6 +110,17 @@ public:
     const std::vector<MixMaterial>& mixes() const { return mixes_; }
     /// Whether choosing from mixes needs to know what the surface is like at the hit.
     bool mixesAreTextured() const { return mixesAreTextured_; }
+
+    /// Whether some material of the type has a relief. Where not, reliefs() need not be asked.
+    template <Material M>
+    bool hasRelief() const {
+        return hasRelief_[kTagOf<M, MaterialTypes>];
+    }
+    /// The relief of every material by its id. REQUIRES: some hasRelief().
+    template <class F>
+    Records<F, ReliefRecord> reliefs(const UInt<F>& id) const {
+        return {reliefs_.data(), id};
+    }
 
     /// Mixes are not counted.
     std::uint32_t size() const { return first_[kTags]; }
@@ -149,6 +164,9 @@ private:
     std::vector<MixMaterial> mixes_;
     std::vector<std::array<MaterialHandle, 2>> mixMembers_;  ///< until finish()
     bool mixesAreTextured_ = false;
+    std::vector<std::pair<MaterialHandle, ReliefRecord>> given_;  ///< until finish()
+    std::vector<ReliefRecord> reliefs_;                           ///< by id; empty where there is none
+    std::array<bool, kTags> hasRelief_{};                         ///< by tag
     MaterialTables tables_;
 };
 

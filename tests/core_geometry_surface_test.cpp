@@ -1,7 +1,7 @@
 // Surface points: position, its error bound, normals, uv and tangent of every shape, as it stands, in instances and in
 // moving ones, against double precision; eight lanes against one, bit by bit; and where rays start that leave them.
 #include "core/geometry/accelerator.h"
-#include "core/geometry/surface_point.h"
+#include "core/geometry/surface_derivatives.h"
 #include "tests/geometry_fixture.h"
 
 #include <gtest/gtest.h>
@@ -30,24 +30,28 @@ protected:
             const Vec3<float> o = rounded(random.inCube(4));
             const Vec3<float> d = normalize(rounded(random.inCube(1.8)) - o);
             const float time = float(random());
-            RayHitPacket p{};
-            p.ray.originX[0] = o.x, p.ray.originY[0] = o.y, p.ray.originZ[0] = o.z;
-            p.ray.directionX[0] = d.x, p.ray.directionY[0] = d.y, p.ray.directionZ[0] = d.z;
-            p.ray.far[0] = kInfinity, p.ray.time[0] = time, p.ray.mask[0] = ~0u;
-            p.hit.geometry[0] = p.hit.instance[0] = kNoHit;
-            accelerator_.intersect(p, 1);
+            const RayHitPacket p = trace(o, d, time);
             const std::optional<ExactHit> exact = everything_.search(widened(o), widened(d), kInfinity, time);
             if (!exact || p.hit.geometry[0] != exact->geometry || p.hit.instance[0] != exact->instance ||
                 p.hit.primitive[0] != exact->primitive || std::abs(exact->t - p.ray.far[0]) > 1e-3)
                 continue;
-            const std::uint32_t shape = shapeOf<float>(geometry(), p.hit.geometry[0], p.hit.instance[0]);
-            list.push_back({o,
-                            d,
-                            time,
-                            {shape, p.hit.primitive[0], p.hit.instance[0], p.hit.u[0], p.hit.v[0], p.ray.far[0]},
-                            *exact});
+            list.push_back({o, d, time, hitOf(p), *exact});
         }
         return list;
+    }
+    RayHitPacket trace(const Vec3<float>& o, const Vec3<float>& d, float time) const {
+        RayHitPacket p{};
+        p.ray.originX[0] = o.x, p.ray.originY[0] = o.y, p.ray.originZ[0] = o.z;
+        p.ray.directionX[0] = d.x, p.ray.directionY[0] = d.y, p.ray.directionZ[0] = d.z;
+        p.ray.far[0] = kInfinity, p.ray.time[0] = time, p.ray.mask[0] = ~0u;
+        p.hit.geometry[0] = p.hit.instance[0] = kNoHit;
+        accelerator_.intersect(p, 1);
+        return p;
+    }
+    /// REQUIRES: something was met.
+    Hit<float> hitOf(const RayHitPacket& p) const {
+        const std::uint32_t shape = shapeOf<float>(geometry(), p.hit.geometry[0], p.hit.instance[0]);
+        return {shape, p.hit.primitive[0], p.hit.instance[0], p.hit.u[0], p.hit.v[0], p.ray.far[0]};
     }
     SurfacePoint<float> pointOf(const Sighting& s) const {
         return surfacePoint<float>(geometry(), s.hit, s.origin, s.direction, s.time);
@@ -122,6 +126,52 @@ TEST_F(SurfacePoints, TheErrorBoundHolds) {
 }
 
 /// A ray that leaves starts on its own side, beyond the error.
+/// What is met beside a sighting, a little to one side; nothing where that is another surface.
+struct Beside {
+    SurfacePoint<float> ahead, behind;
+};
+
+TEST_F(SurfacePoints, DerivativesAreThoseOfNeighbours) {
+    const auto beside = [&](const Sighting& s, const Vec3<float>& offset) -> std::optional<Beside> {
+        const auto at = [&](float sign) -> std::optional<SurfacePoint<float>> {
+            const Vec3<float> d = normalize(s.direction + offset * sign);
+            const RayHitPacket p = trace(s.origin, d, s.time);
+            if (p.hit.geometry[0] == kNoHit) return std::nullopt;
+            const Hit<float> hit = hitOf(p);
+            if (hit.shape != s.hit.shape || hit.primitive != s.hit.primitive || hit.instance != s.hit.instance)
+                return std::nullopt;
+            return surfacePoint<float>(geometry(), hit, s.origin, d, s.time);
+        };
+        const auto ahead = at(1), behind = at(-1);
+        if (!ahead || !behind) return std::nullopt;
+        return Beside{*ahead, *behind};
+    };
+    std::size_t meshes = 0, quadrics = 0, bent = 0;
+    for (const Sighting& s : sightings(4000, 77)) {
+        const SurfacePoint<float> at = pointOf(s);
+        const SurfaceDerivatives<float> d = surfaceDerivatives<float>(geometry(), s.hit, at, s.time);
+        const Frame<float> across = Frame<float>::fromNormal(s.direction);
+        for (const Vec3<float>& offset : {across.s * 1e-3f, across.t * 1e-3f}) {
+            const std::optional<Beside> found = beside(s, offset);
+            if (!found) continue;
+            const Vec2<float> uv = found->ahead.uv - found->behind.uv;
+            if (std::hypot(uv.x, uv.y) > 0.05f) continue;  // at a seam or a pole
+            const Vec3<float> moved = found->ahead.p - found->behind.p;
+            const Vec3<float> turned = found->ahead.frame.n - found->behind.frame.n;
+            const float far = length(moved);
+            EXPECT_LT(length(moved - (d.dpdu * uv.x + d.dpdv * uv.y)), 0.02f * far + 1e-5f) << s.hit.shape;
+            EXPECT_LT(length(turned - (d.dndu * uv.x + d.dndv * uv.y)), 0.02f * (far + length(turned)) + 2e-5f)
+                << s.hit.shape;
+            ++(isMesh(s) ? meshes : quadrics);
+            bent += isMesh(s) && length(turned) > 1e-4f;
+        }
+        EXPECT_NEAR(dot(d.dndu, at.frame.n), 0, 1e-4f * (1 + length(d.dndu)));
+    }
+    EXPECT_GT(meshes, 300u);
+    EXPECT_GT(quadrics, 300u);
+    EXPECT_GT(bent, 100u);
+}
+
 TEST_F(SurfacePoints, RaysStartOnTheirSide) {
     Random random(4);
     for (const Sighting& s : sightings(10000, 5)) {
@@ -170,7 +220,34 @@ TEST_F(SurfacePoints, EightLanesGiveTheBitsOfOne) {
             const std::vector<float> b = floatsOf(pointOf(all[i + std::size_t(k)]), [](float x) { return x; });
             ASSERT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(float)), 0) << "lane " << k;
         }
+        const SurfaceDerivatives<Lanes8f> wideDerivatives = surfaceDerivatives<Lanes8f>(geometry(), hit, wide, time);
+        for (int k = 0; k < 8; ++k) {
+            const Sighting& s = all[i + std::size_t(k)];
+            const SurfaceDerivatives<float> one = surfaceDerivatives<float>(geometry(), s.hit, pointOf(s), s.time);
+            const Vec3<float> a[] = {one.dpdu, one.dpdv, one.dndu, one.dndv};
+            const Vec3<float> b[] = {lane(wideDerivatives.dpdu, k), lane(wideDerivatives.dpdv, k),
+                                     lane(wideDerivatives.dndu, k), lane(wideDerivatives.dndv, k)};
+            ASSERT_EQ(std::memcmp(a, b, sizeof a), 0) << "lane " << k;
+        }
     }
+}
+
+TEST_F(SurfacePoints, KnowHowDenseUvAre) {
+    std::size_t instanced = 0, quadrics = 0;
+    for (const Sighting& s : sightings(4000, 12)) {
+        const SurfacePoint<float> at = pointOf(s);
+        const SurfaceDerivatives<float> d = surfaceDerivatives<float>(geometry(), s.hit, at, s.time);
+        const float area = length(cross(d.dpdu, d.dpdv));
+        if (!at.shape.has(kShapeNeedsUv)) {
+            EXPECT_EQ(at.uvPerLength, 0);
+        } else {
+            EXPECT_NEAR(at.uvPerLength * at.uvPerLength * area, 1, 1e-3f) << s.hit.shape;
+            instanced += s.hit.instance != kNone;
+            quadrics += !isMesh(s);
+        }
+    }
+    EXPECT_GT(instanced, 200u);
+    EXPECT_GT(quadrics, 200u);
 }
 
 /// The corner of a room far from the origin: points next to an edge stay inside of the next wall, although floats are

@@ -97,7 +97,10 @@ AttributeEnd
 Texture "wood" "spectrum" "imagemap" "string filename" "wood.pfm" "string filter" "trilinear" "float uscale" 2
 Texture "check" "spectrum" "checkerboard" "rgb tex1" [ .7 .6 .5 ] "rgb tex2" [ .2 .3 .2 ] "float uscale" 9 "float vscale" 9
 Texture "rough" "float" "checkerboard" "float tex1" .05 "float tex2" .4 "float uscale" 4 "float vscale" 8
-Material "diffuse" "texture reflectance" "check"
+Texture "noise" "float" "wrinkled"
+Texture "waves" "float" "scale" "texture tex" "noise" "float scale" .2
+Texture "marble" "spectrum" "marble" "float scale" 9
+Material "diffuse" "texture reflectance" "check" "texture displacement" "waves"
 Shape "trianglemesh" "point3 P" [ -3 0 -3  3 0 -3  3 0 3  -3 0 3 ] "integer indices" [ 0 2 1 0 3 2 ] "point2 uv" [ 0 0 1 0 1 1 0 1 ]
 Material "diffuse" "texture reflectance" "wood"
 Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indices" [ 0 2 1 0 3 2 ] "point2 uv" [ 0 0 1 0 1 1 0 1 ]
@@ -121,7 +124,7 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indice
                "Shape \"sphere\" \"float radius\" .25\n") +
            scoped(
                "Translate -.5 .25 -1.5\nMaterial \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" "
-               "\"metal-Au-k\" \"float uroughness\" .3 \"float vroughness\" .05\n"
+               "\"metal-Au-k\" \"float uroughness\" .3 \"float vroughness\" .05 \"texture displacement\" \"waves\"\n"
                "Shape \"sphere\" \"float radius\" .25\n") +
            R"(
 MakeNamedMaterial "paint" "string type" "diffuse" "rgb reflectance" [ .2 .3 .7 ]
@@ -139,7 +142,7 @@ AttributeBegin
   Shape "sphere" "float radius" .4
 AttributeEnd
 ObjectBegin "stone"
-  Material "coateddiffuse"
+  Material "coateddiffuse" "texture reflectance" "marble" "string normalmap" "wood.pfm"
   Shape "cylinder" "float radius" .1 "float phimax" 250
   Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0  0 0 1 ] "integer indices" [ 0 2 1 0 1 3 0 3 2 1 2 3 ]
   Translate 0 1 0

@@ -187,10 +187,65 @@ TEST(MaterialLibrary, ADeepChainOfMixesIsAnError) {
     EXPECT_NE(materialError(chain + "NamedMaterial \"m19999\"").find("more than 64 deep"), std::string::npos);
 }
 
-TEST(MaterialLibrary, BumpMapsWarn) {
-    EXPECT_TRUE(withMaterial("Texture \"t\" \"float\" \"constant\" Material \"diffuse\" \"texture displacement\" \"t\"")
-                    .warnsOf("bump and normal maps"));
-    EXPECT_TRUE(withMaterial("Material \"diffuse\" \"string normalmap\" \"n.png\"").warnsOf("bump and normal maps"));
+TEST(MaterialLibrary, ReadsReliefs) {
+    const TemporaryFolder folder;
+    folder.file("n.pfm", "PF\n1 1\n-1.0\n" + std::string(12, '\0'));
+    const std::string textures =
+        "Texture \"t\" \"float\" \"fbm\" Texture \"c\" \"float\" \"constant\" \"float value\" 3\n";
+    const auto reliefOf = [&](const std::string& parameters) {
+        const BuiltScene built = buildWorld(
+            kLight + textures + "Material \"diffuse\" " + parameters + " Shape \"sphere\"", folder.path(""));
+        EXPECT_TRUE(built.warnings.all().empty()) << parameters;
+        const ShapeRecord& shape = built.scene.geometry.shapes[0];
+        const bool hasRelief = built.scene.materials.hasRelief<DiffuseMaterial>();
+        EXPECT_EQ(shape.flags & kShapeNeedsUv, hasRelief ? kShapeNeedsUv : 0u);
+        if (!hasRelief) return std::string("flat");
+        const auto relief = built.scene.materials.reliefs<float>(shape.material);
+        return std::string(relief(&ReliefRecord::displacement) != kNoTexture ? "raised " : "") +
+               (relief(&ReliefRecord::normalMap) != kNoTexture ? "mapped" : "");
+    };
+    EXPECT_EQ(reliefOf(""), "flat");
+    EXPECT_EQ(reliefOf("\"float displacement\" 2"), "flat");
+    EXPECT_EQ(reliefOf("\"texture displacement\" \"c\""), "flat");
+    EXPECT_EQ(reliefOf("\"texture displacement\" \"t\""), "raised ");
+    EXPECT_EQ(reliefOf("\"string normalmap\" \"n.pfm\""), "mapped");
+    EXPECT_EQ(reliefOf("\"texture displacement\" \"t\" \"string normalmap\" \"n.pfm\""), "mapped");  // the map wins
+}
+
+TEST(MaterialLibrary, AReliefBelongsToItsMaterialAlone) {
+    const BuiltScene built = buildWorld(
+        kLight + "Texture \"t\" \"float\" \"fbm\"\nMaterial \"diffuse\" Shape \"sphere\"\n"
+        "Material \"diffuse\" \"texture displacement\" \"t\" Shape \"sphere\" Material \"conductor\" Shape \"sphere\"\n"
+        "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" \"texture displacement\" \"t\"\n"
+        "MakeNamedMaterial \"b\" \"string type\" \"conductor\"\n"
+        "Material \"mix\" \"string materials\" [ \"a\" \"b\" ] Shape \"sphere\"");
+    const MaterialTable& m = built.scene.materials;
+    EXPECT_TRUE(m.hasRelief<DiffuseMaterial>());
+    EXPECT_TRUE(m.hasRelief<DielectricMaterial>());
+    EXPECT_FALSE(m.hasRelief<ConductorMaterial>());
+    const auto& shapes = built.scene.geometry.shapes;
+    const auto raised = [&](std::uint32_t id) {
+        return m.reliefs<float>(id)(&ReliefRecord::displacement) != kNoTexture;
+    };
+    EXPECT_FALSE(raised(shapes[0].material));
+    EXPECT_TRUE(raised(shapes[1].material));
+    EXPECT_FALSE(raised(shapes[2].material));
+    EXPECT_TRUE(raised(m.mixes()[0].first));
+    EXPECT_FALSE(raised(m.mixes()[0].second));
+    EXPECT_TRUE(shapes[3].flags & kShapeNeedsUv);
+}
+
+TEST(MaterialLibrary, ErrorsOfReliefs) {
+    const TemporaryFolder folder;
+    folder.file("grey.pfm", "Pf\n1 1\n-1.0\n" + std::string(4, '\0'));
+    const auto error = [&](const std::string& parameters) {
+        return errorOf("WorldBegin\n" + kLight + "Material \"diffuse\" " + parameters + " Shape \"sphere\"", {},
+                       folder.path(""));
+    };
+    EXPECT_NE(error("\"string normalmap\" \"gone.png\"").find("gone.png"), std::string::npos);
+    EXPECT_NE(error("\"string normalmap\" \"grey.pfm\"").find("has no colours"), std::string::npos);
+    EXPECT_NE(error("\"string normalmap\" \"\"").find("normalmap"), std::string::npos);
+    EXPECT_NE(error("\"texture displacement\" \"t\"").find("unknown float texture 't'"), std::string::npos);
 }
 
 TEST(MaterialLibrary, UnusedParametersWarn) {

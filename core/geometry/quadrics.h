@@ -105,4 +105,39 @@ QuadricPoint<F> quadricPoint(const Records<F, QuadricRecord>& q, const Vec3<F>& 
     return out;
 }
 
+/// How the point and the unit normal change with uv, in object space. `p` is on the surface.
+template <class F>
+struct QuadricDerivatives {
+    Vec3<F> normal, dpdu, dpdv, dndu, dndv;
+};
+
+template <class F>
+QuadricDerivatives<F> quadricDerivatives(const Records<F, QuadricRecord>& q, const Vec3<F>& p) {
+    const UInt<F> kind = q(&QuadricRecord::kind);
+    const Mask<F> disk = kind == UInt<F>(std::uint32_t(ShapeKind::Disk));
+    const Mask<F> cylinder = kind == UInt<F>(std::uint32_t(ShapeKind::Cylinder));
+    const F r = q(&QuadricRecord::radius), zero(0.f), perRadius = F(1.f) / r;
+    const F rho = sqrt(p.x * p.x + p.y * p.y), perRho = F(1.f) / max(rho, F(1e-20f));
+    const Vec3<F> outward = {p.x * perRho, p.y * perRho, zero};
+    const Vec3<F> flat = outward * (q(&QuadricRecord::innerRadius) - r);   // v is 1 at the centre
+    const Vec3<F> up = {zero, zero, q(&QuadricRecord::zMax) - q(&QuadricRecord::zMin)};
+    const Vec3<F> round = Vec3<F>{p.z * outward.x, p.z * outward.y, -rho} *
+                          (q(&QuadricRecord::thetaMin) - q(&QuadricRecord::thetaMax));
+    const Vec3<F> none{zero, zero, zero};
+    QuadricDerivatives<F> d;
+    d.dpdu = Vec3<F>{-p.y, p.x, zero} * q(&QuadricRecord::phiMax);
+    d.dpdv = select(disk, flat, select(cylinder, up, round));
+    d.normal = select(disk, Vec3<F>{zero, zero, F(1.f)}, Vec3<F>{p.x, p.y, select(cylinder, zero, p.z)} * perRadius);
+    d.dndu = select(disk, none, d.dpdu * perRadius);
+    d.dndv = select(disk | cylinder, none, d.dpdv * perRadius);
+    return d;
+}
+
+/// The area, in object space, of a piece of the surface around p over that of its uv.
+template <class F>
+F areaPerUv(const Records<F, QuadricRecord>& q, const Vec3<F>& p) {
+    const QuadricDerivatives<F> d = quadricDerivatives(q, p);
+    return length(cross(d.dpdu, d.dpdv));
+}
+
 }  // namespace penumbra

@@ -51,6 +51,44 @@ Vec3<F> loadVertex(const std::vector<float>& table, const UInt<F>& row) {
     return {r[0], r[1], r[2]};
 }
 
+/// The vertices of a triangle, and what stands in the tables for each.
+template <class F>
+struct TriangleCorners {
+    UInt<F> vertex[3];
+
+    TriangleCorners(const Geometry& g, const UInt<F>& triangle) {
+        F row[4];
+        loadRows4(reinterpret_cast<const float*>(g.indices.data()), triangle * UInt<F>(3u), row);
+        for (int i = 0; i < 3; ++i) vertex[i] = floatBits(row[i]);
+    }
+    void positions(const Geometry& g, Vec3<F> out[3]) const {
+        for (int i = 0; i < 3; ++i) out[i] = loadVertex<F>(g.positions, vertex[i]);
+    }
+    /// Of normals or tangents; of lanes that are not given any, those of row 0.
+    void vectors(const std::vector<float>& table, const UInt<F>& shift, const Mask<F>& given, Vec3<F> out[3]) const {
+        for (int i = 0; i < 3; ++i) out[i] = loadVertex<F>(table, select(given, vertex[i] + shift, UInt<F>(0u)));
+    }
+    /// The corners of a mesh without uv are (0,0), (1,0), (1,1), and so are those of lanes not wanted.
+    void uvs(const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& wanted, Vec2<F> out[3]) const {
+        out[0] = {F(0.f), F(0.f)}, out[1] = {F(1.f), F(0.f)}, out[2] = {F(1.f), F(1.f)};
+        const Mask<F> mapped = wanted & (shape.uvShift != UInt<F>(kNone));
+        if (none(mapped)) return;
+        for (int i = 0; i < 3; ++i) {
+            F row[4];
+            loadRows4(g.uvs.data(), select(mapped, vertex[i] + shape.uvShift, UInt<F>(0u)) * UInt<F>(2u), row);
+            out[i] = {select(mapped, row[0], out[i].x), select(mapped, row[1], out[i].y)};
+        }
+    }
+};
+
+/// The matrix that instanced lanes stand in the world by.
+template <class F>
+Affine<F> instanceMatrix(const Geometry& g, const Hit<F>& hit, const Mask<F>& instanced, F time) {
+    const Records<F, InstanceRecord> instance(g.instances.data(), select(instanced, hit.instance, UInt<F>(0u)));
+    return affineAt<F>(g.matrices.data(), instance(&InstanceRecord::firstMatrix), instance(&InstanceRecord::segments),
+                       time);
+}
+
 /// The unit vector along v, whose square may be beyond the range of floats (normals grow and shrink with the square of a
 /// scale). Of usual vectors it is normalize().
 template <class F>
@@ -87,11 +125,10 @@ template <class F>
 void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh,
                  const Affine<F>& place, const Mask<F>& instanced) {
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
-    const UInt<F> triangle = select(isMesh, shape.first + hit.primitive, UInt<F>(0u));
-    F corner[4];
-    loadRows4(reinterpret_cast<const float*>(g.indices.data()), triangle * UInt<F>(3u), corner);
-    const UInt<F> i0 = floatBits(corner[0]), i1 = floatBits(corner[1]), i2 = floatBits(corner[2]);
-    const Vec3<F> p0 = loadVertex<F>(g.positions, i0), p1 = loadVertex<F>(g.positions, i1), p2 = loadVertex<F>(g.positions, i2);
+    const TriangleCorners<F> corners(g, select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));
+    Vec3<F> at[3];
+    corners.positions(g, at);
+    const Vec3<F> &p0 = at[0], &p1 = at[1], &p2 = at[2];
     const F b1 = hit.u, b2 = hit.v, b0 = (F(1.f) - b1) - b2;
     s.p = p0 * b0 + p1 * b1 + p2 * b2;
     // The plane that Embree intersected is known to a few roundings of the corners' coordinates. One bound for all axes: a
@@ -119,13 +156,12 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
     }
     s.ng = flipSign(flip, faceNormal);
     s.ns = s.ng;
-    const UInt<F> normalShift = shape.normalShift;
-    const Mask<F> smooth = isMesh & (normalShift != UInt<F>(kNone));
+    const Mask<F> smooth = isMesh & (shape.normalShift != UInt<F>(kNone));
     s.isFlat = none(smooth);
     if (!s.isFlat) {
-        const UInt<F> shift = select(smooth, normalShift, UInt<F>(0u));
-        const auto normal = [&](const UInt<F>& i) { return loadVertex<F>(g.normals, select(smooth, i + shift, UInt<F>(0u))); };
-        const Vec3<F> n = normal(i0) * b0 + normal(i1) * b1 + normal(i2) * b2;
+        Vec3<F> normals[3];
+        corners.vectors(g.normals, shape.normalShift, smooth, normals);
+        const Vec3<F> n = normals[0] * b0 + normals[1] * b1 + normals[2] * b2;
         const Mask<F> usable = smooth & (dot(n, n) > F(0.f));
         s.ns = select(usable, n, s.ns);
         // The interpolated normal says which side is outside (PBRT-v4).
@@ -136,54 +172,56 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
     s.uvPerLength = F(0.f);
     const Mask<F> needs = isMesh & shape.has(kShapeNeedsUv | kShapeNeedsTangent);
     if (any(needs)) {
-        const UInt<F> uvShift = shape.uvShift;
-        const Mask<F> mapped = needs & (uvShift != UInt<F>(kNone));
-        Vec2<F> t0 = {F(0.f), F(0.f)}, t1 = {F(1.f), F(0.f)}, t2 = {F(1.f), F(1.f)};
-        if (any(mapped)) {
-            const auto uvOf = [&](const UInt<F>& i, Vec2<F>& t) {
-                F r[4];
-                loadRows4(g.uvs.data(), select(mapped, i + uvShift, UInt<F>(0u)) * UInt<F>(2u), r);
-                t = {select(mapped, r[0], t.x), select(mapped, r[1], t.y)};
-            };
-            uvOf(i0, t0);
-            uvOf(i1, t1);
-            uvOf(i2, t2);
-        }
+        Vec2<F> uvs[3];
+        corners.uvs(g, shape, needs, uvs);
+        const Vec2<F> &t0 = uvs[0], &t1 = uvs[1], &t2 = uvs[2];
         s.uv = {t0.x * b0 + t1.x * b1 + t2.x * b2, t0.y * b0 + t1.y * b1 + t2.y * b2};
         const Vec2<F> d1 = t1 - t0, d2 = t2 - t0;
         const F determinant = d1.x * d2.y - d1.y * d2.x;
         const Vec3<F> dpdu = flipSign(determinant < F(0.f), e1 * d2.y - e2 * d1.y);
         s.tangent = select(abs(determinant) > F(1e-30f), dpdu, s.tangent);
         s.uvPerLength = sqrt(abs(determinant) / max(length(faceNormal), F(1e-30f)));
-        const UInt<F> tangentShift = shape.tangentShift;
-        const Mask<F> given = needs & (tangentShift != UInt<F>(kNone));
+        const Mask<F> given = needs & (shape.tangentShift != UInt<F>(kNone));
         if (any(given)) {
-            const auto tangent = [&](const UInt<F>& i) {
-                return loadVertex<F>(g.tangents, select(given, i + tangentShift, UInt<F>(0u)));
-            };
-            s.tangent = select(given, tangent(i0) * b0 + tangent(i1) * b1 + tangent(i2) * b2, s.tangent);
+            Vec3<F> tangents[3];
+            corners.vectors(g.tangents, shape.tangentShift, given, tangents);
+            s.tangent = select(given, tangents[0] * b0 + tangents[1] * b1 + tangents[2] * b2, s.tangent);
         }
     }
 }
 
+/// The quadric of a lane, and the matrices between its object space and the space of the shape's group. Lanes that are none
+/// read quadric 0.
+template <class F>
+struct PlacedQuadric {
+    Records<F, QuadricRecord> record;
+    Affine<F> fromObject, toObject;
+
+    PlacedQuadric(const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& isQuadric)
+        : record(g.quadrics.data(), select(isQuadric, shape.first, UInt<F>(0u))) {
+        const UInt<F> offset = record.index() * UInt<F>(std::uint32_t(sizeof(QuadricRecord) / 4));
+        fromObject = loadAffineAt<F>(g.quadrics[0].worldFromObject.m, offset);
+        toObject = loadAffineAt<F>(g.quadrics[0].objectFromWorld.m, offset);
+    }
+};
+
 template <class F>
 void quadricSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& isQuadric, const Vec3<F>& met) {
-    // `met` is the hit in the space of the shape's group; the quadric's own matrix leads from its object space to that.
-    const UInt<F> row = select(isQuadric, shape.first, UInt<F>(0u));
-    const Records<F, QuadricRecord> q(g.quadrics.data(), row);
-    const UInt<F> offset = row * UInt<F>(std::uint32_t(sizeof(QuadricRecord) / 4));
-    const Affine<F> worldFromObject = loadAffineAt<F>(g.quadrics[0].worldFromObject.m, offset);
-    const Affine<F> objectFromWorld = loadAffineAt<F>(g.quadrics[0].objectFromWorld.m, offset);
-    const QuadricPoint<F> point = quadricPoint(q, objectFromWorld.point(met));
+    // `met` is the hit in the space of the shape's group.
+    const PlacedQuadric<F> q(g, shape, isQuadric);
+    const QuadricPoint<F> point = quadricPoint(q.record, q.toObject.point(met));
     const Mask<F> flip = shape.has(kShapeFlipNormal);
-    s.p = worldFromObject.point(point.p);
-    s.error = worldFromObject.pointError(point.p, point.error);
-    s.ng = flipSign(flip, worldFromObject.normal(point.normal));
+    s.p = q.fromObject.point(point.p);
+    s.error = q.fromObject.pointError(point.p, point.error);
+    s.ng = flipSign(flip, q.fromObject.normal(point.normal));
     s.ns = s.ng;
     s.isFlat = true;
-    s.tangent = worldFromObject.vector(point.tangent);
+    s.tangent = q.fromObject.vector(point.tangent);
     s.uv = point.uv;
     s.uvPerLength = F(0.f);
+    // A normal here is as long as an area grows.
+    if (any(isQuadric & shape.has(kShapeNeedsUv)))
+        s.uvPerLength = F(1.f) / sqrt(max(areaPerUv(q.record, point.p) * length(s.ng), F(1e-30f)));
 }
 
 }  // namespace detail
@@ -198,10 +236,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     const ShapeLanes<F>& shape = out.shape;
     const Mask<F> instanced = hit.instance != UInt<F>(kNone);
     Affine<F> place;
-    if (any(instanced)) {
-        const Records<F, InstanceRecord> instance(g.instances.data(), select(instanced, hit.instance, UInt<F>(0u)));
-        place = affineAt<F>(g.matrices.data(), instance(&InstanceRecord::firstMatrix), instance(&InstanceRecord::segments), time);
-    }
+    if (any(instanced)) place = instanceMatrix(g, hit, instanced, time);
 
     const Mask<F> isMesh = shape.kind == UInt<F>(std::uint32_t(ShapeKind::Mesh));
     LocalSurface<F> s;
@@ -227,7 +262,12 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     if (any(instanced)) {
         s.error = select(instanced, place.pointError(s.p, s.error), s.error);
         s.p = select(instanced, place.point(s.p), s.p);
-        s.ng = select(instanced, place.normal(s.ng), s.ng);
+        const Vec3<F> ng = place.normal(s.ng);   // as much longer as areas are larger
+        if (any(instanced & shape.has(kShapeNeedsUv))) {
+            const F shrinks = sqrt(length(s.ng) / max(length(ng), F(1e-30f)));
+            s.uvPerLength = select(instanced, s.uvPerLength * shrinks, s.uvPerLength);
+        }
+        s.ng = select(instanced, ng, s.ng);
         s.ns = select(instanced, place.normal(s.ns), s.ns);
         s.tangent = select(instanced, place.vector(s.tangent), s.tangent);
     }
@@ -245,14 +285,7 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
 
     const Mask<F> needsTangent = shape.has(kShapeNeedsTangent);
     out.frame = Frame<F>::fromNormal(n);
-    if (any(needsTangent)) {
-        const Vec3<F> t = s.tangent - n * dot(n, s.tangent);
-        const F squared = dot(t, t);
-        const Mask<F> use = needsTangent & (squared > F(1e-30f));
-        const Vec3<F> x = t * (F(1.f) / sqrt(max(squared, F(1e-30f))));
-        out.frame.s = select(use, x, out.frame.s);
-        out.frame.t = select(use, cross(n, x), out.frame.t);
-    }
+    if (any(needsTangent)) out.frame.turnTowards(s.tangent, needsTangent);
     return out;
 }
 

@@ -96,6 +96,10 @@ public:
     /// Throws Error: BadData, MissingInput for an image that is not there. REQUIRES: knows(className).
     TextureOperand add(std::string_view className, TextureInput& input);
     static bool knows(std::string_view className);
+    /// The image file that the "string" parameter names as a map of normals; linear where the file does not say
+    /// otherwise, bilinear and repeated. Its r, g, b are the image's own: no colour, and no matter of colour spaces.
+    /// The id is of kind Spectrum. Throws as add() does, and where the image is grey.
+    std::uint32_t addNormalMap(std::string_view parameter, TextureInput& input);
 
     /// Values at every lane's own texture; lanes with kNoTexture get 0. Ids of different textures may stand in one
     /// group; a group that shares one is quickest. REQUIRES: ids of kind Spectrum.

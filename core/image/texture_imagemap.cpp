@@ -65,4 +65,12 @@ TextureOperand ImageTexture::make(TextureInput& input, TextureTables& tables) {
     return tables.append(t, {}, input);
 }
 
+std::uint32_t Textures::addNormalMap(std::string_view parameter, TextureInput& input) {
+    ImageTexture t;
+    const std::string path = input.path(parameter);
+    t.image = tables_->addImage(path, TransferFunction::linear(), input);
+    if (tables_->image(t.image).isGrey()) input.fail("the normal map " + quote(path) + " has no colours");
+    return tables_->append(t, {}, input).texture;
+}
+
 }  // namespace penumbra

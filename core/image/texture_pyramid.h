@@ -36,6 +36,7 @@ public:
     int height() const { return int(levels_[0].height); }
     int levelCount() const { return int(levels_.size()); }
     const ColorSpace& colorSpace() const { return *colorSpace_; }
+    bool isGrey() const { return format_ == Format::ByteGrey || format_ == Format::FloatGrey; }
     /// True where numbers are read from alpha: the image has it and is not opaque everywhere.
     bool readsAlpha() const { return readsAlpha_; }
     /// Values of the file that were infinite or not a number; they count as 0.

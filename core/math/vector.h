@@ -64,6 +64,15 @@ struct Frame {
         orthonormalBasis(n, f.s, f.t);
         return f;
     }
+    /// Turns s and t about n so that s lies towards v; not where v is along n, nor in other lanes.
+    void turnTowards(const Vec3<F>& v, const Mask<F>& wanted) {
+        const Vec3<F> across = v - n * dot(n, v);
+        const F squared = dot(across, across);
+        const Mask<F> use = wanted & (squared > F(1e-30f));
+        const Vec3<F> x = across * (F(1.f) / sqrt(max(squared, F(1e-30f))));
+        s = select(use, x, s);
+        t = select(use, cross(n, x), t);
+    }
     Vec3<F> toLocal(const Vec3<F>& v) const { return {dot(v, s), dot(v, t), dot(v, n)}; }
     Vec3<F> toWorld(const Vec3<F>& v) const { return s * v.x + t * v.y + n * v.z; }
 };

@@ -205,11 +205,25 @@ SceneMaterial MaterialLibrary::makeOurs(const Entity& entity, const std::string&
     made.needsUv = input.usesTextures();
     made.needsTangent = isAnisotropic(table_, made.handle);
     const ParameterSet& p = entity.parameters;
-    if (p.find("texture", "displacement") || p.find("float", "displacement") || p.find("string", "normalmap"))
-        context_.warnOnce("bump", entity.where, owner + ": bump and normal maps are not there yet and are ignored");
-    if (made.passThrough) p.markAllUsed();
+    if (made.passThrough)
+        p.markAllUsed();
+    else
+        addRelief(entity, owner, made);
     context_.warnUnused(p, owner);
     return made;
+}
+
+void MaterialLibrary::addRelief(const Entity& entity, const std::string& owner, SceneMaterial& made) {
+    const ParameterSet& p = entity.parameters;
+    ReliefRecord relief;
+    p.number("displacement", 0);  // a constant one tilts nothing
+    if (const Parameter* displacement = p.find("texture", "displacement"))
+        relief.displacement = textures_.scalar(*displacement).texture;
+    if (p.find("string", "normalmap")) relief = {.normalMap = textures_.normalMap(entity, owner)};  // it wins
+    if (relief.isFlat()) return;
+    table_.setRelief(made.handle, relief);
+    made.needsUv = true;
+    made.needsTangent = made.needsTangent || relief.normalMap != kNoTexture;
 }
 
 }  // namespace penumbra::builder

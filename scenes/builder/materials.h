@@ -36,6 +36,8 @@ private:
     SceneMaterial getNamed(const std::string& name, SourcePosition where);
     SceneMaterial make(const Entity& entity, const std::string& owner);
     SceneMaterial makeOurs(const Entity& entity, const std::string& owner);
+    /// The bumps and the normal map of the material that was made of the entity.
+    void addRelief(const Entity& entity, const std::string& owner, SceneMaterial& made);
     SceneMaterial makeMix(const Entity& entity, const std::string& owner);
     [[noreturn]] void failCycle(std::size_t material, SourcePosition where) const;
 

@@ -9,18 +9,19 @@ namespace {
 
 class SceneTextureInput final : public TextureInput {
 public:
-    SceneTextureInput(const TextureEntity& texture, std::optional<SpectrumRole> role, TextureLibrary& library,
-                      BuildContext& context)
-        : texture_(texture),
+    SceneTextureInput(const Entity& entity, const Matrix4& textureToWorld, std::string owner,
+                      std::optional<SpectrumRole> role, TextureLibrary& library, BuildContext& context)
+        : entity_(entity),
+          textureToWorld_(textureToWorld),
           role_(role),
           library_(library),
           context_(context),
-          owner_(ownerName("texture", texture.name)) {}
+          owner_(std::move(owner)) {}
 
     TextureKind kind() const override { return role_ ? TextureKind::Spectrum : TextureKind::Float; }
     SpectrumRole role() const override { return role_.value_or(SpectrumRole::Unbounded); }
     const ColorSpace& filmColorSpace() const override { return context_.filmColorSpace(); }
-    const Matrix4& textureToWorld() const override { return texture_.textureToWorld; }
+    const Matrix4& textureToWorld() const override { return textureToWorld_; }
     TextureOperand spectrum(std::string_view name, Rgb otherwise) override {
         if (const Parameter* p = parameters().find("texture", name)) return library_.spectrum(*p, role());
         if (const Parameter* p = BuildContext::findSpectrum(parameters(), name))
@@ -34,15 +35,16 @@ public:
     std::string path(std::string_view name) override {
         const std::string file = parameters().text(name, "");
         if (file.empty()) fail(fmt::format("\"string {}\" is missing", name));
-        return context_.placed(texture_.where, owner_, [&] { return context_.path(file); });
+        return context_.placed(entity_.where, owner_, [&] { return context_.path(file); });
     }
-    const ParameterSet& parameters() const override { return texture_.parameters; }
-    std::string where() const override { return context_.position(texture_.where) + ": " + owner_; }
-    void warn(const std::string& text) override { context_.warn(texture_.where, owner_ + ": " + text); }
-    [[noreturn]] void fail(const std::string& text) override { context_.fail(texture_.where, owner_ + ": " + text); }
+    const ParameterSet& parameters() const override { return entity_.parameters; }
+    std::string where() const override { return context_.position(entity_.where) + ": " + owner_; }
+    void warn(const std::string& text) override { context_.warn(entity_.where, owner_ + ": " + text); }
+    [[noreturn]] void fail(const std::string& text) override { context_.fail(entity_.where, owner_ + ": " + text); }
 
 private:
-    const TextureEntity& texture_;
+    const Entity& entity_;
+    const Matrix4& textureToWorld_;
     std::optional<SpectrumRole> role_;
     TextureLibrary& library_;
     BuildContext& context_;
@@ -100,10 +102,17 @@ TextureOperand TextureLibrary::get(Use use, SourcePosition where) {
 }
 
 TextureOperand TextureLibrary::make(const TextureEntity& texture, std::optional<SpectrumRole> role) {
-    SceneTextureInput input(texture, role, *this, context_);
+    const std::string owner = ownerName("texture", texture.name);
+    SceneTextureInput input(texture, texture.textureToWorld, owner, role, *this, context_);
     const TextureOperand operand = table_.add(texture.type, input);
-    context_.warnUnused(texture.parameters, ownerName("texture", texture.name));
+    context_.warnUnused(texture.parameters, owner);
     return operand;
+}
+
+std::uint32_t TextureLibrary::normalMap(const Entity& material, const std::string& owner) {
+    const Matrix4 nowhere;
+    SceneTextureInput input(material, nowhere, owner, SpectrumRole::Unbounded, *this, context_);
+    return table_.addNormalMap("normalmap", input);
 }
 
 }  // namespace penumbra::builder

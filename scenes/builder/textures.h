@@ -24,6 +24,8 @@ public:
     /// The texture that a "texture" parameter names.
     TextureOperand spectrum(const Parameter& reference, SpectrumRole role);
     TextureOperand scalar(const Parameter& reference);
+    /// The file that the "string normalmap" of a material names; see Textures::addNormalMap.
+    std::uint32_t normalMap(const Entity& material, const std::string& owner);
 
 private:
     struct Use {

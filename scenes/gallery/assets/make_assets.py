@@ -262,6 +262,17 @@ def bumps(size=128):
     return png(size, size, pixel)
 
 
+def studs(size=64, rim=0.8, radius=1.1):
+    """A normal map: the cap of a ball on a flat ground; repeats."""
+    def pixel(px, py):
+        x, y = 2 * (px + 0.5) / size - 1, 1 - 2 * (py + 0.5) / size
+        n = (0.0, 0.0, 1.0)
+        if math.hypot(x, y) < rim:
+            n = (x / radius, y / radius, math.sqrt(1 - (x * x + y * y) / (radius * radius)))
+        return [round(255 * (0.5 + 0.5 * v)) for v in n]
+    return png(size, size, pixel)
+
+
 # ---- parts of scenes ------------------------------------------------------------------------------------------------
 
 HEADER = "# Made by make_assets.py.\n"
@@ -323,6 +334,7 @@ def main():
     write("lantern.exr", environment(256, lantern))
     write("truchet.png", truchet())
     write("bumps.png", bumps())
+    write("studs.png", studs())
     write("flower.pbrt", flower())
     write("star.pbrt", star())
     write("tribar.pbrt", tribar())
