@@ -9,7 +9,7 @@ namespace {
 
 constexpr ParameterInfo kParameters[] = {
     {"integer", "maxdepth", "5", "scattering events at most; emission met after the last one counts"},
-    {"string", "lightsampler", "power", "how the next light is picked: power or uniform"},
+    {"string", "lightsampler", "bvh", "how the next light is picked: bvh (by what it may contribute), power or uniform"},
 };
 
 }  // namespace

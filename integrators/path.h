@@ -5,6 +5,7 @@
 // sampled at the last one still counts, with its weight.
 #pragma once
 
+#include "core/math/packed_direction.h"
 #include "integrators/batch_driver.h"
 
 namespace penumbra {
@@ -37,7 +38,7 @@ public:
         const LightHit<F> away{g.origin, {}, g.direction};
         for (std::uint32_t id : step.scene.lights.infiniteIds()) {
             const LightEval<F> e = evaluateLight<F>(step.scene.lights, UInt<F>(id), away);
-            const F weight = emissionWeight(step.scene, g, UInt<F>(id), e.pdf);
+            const F weight = emissionWeight(step, g, UInt<F>(id), e.pdf);
             step.add(g, g.throughput * e.L * weight);
         }
     }
@@ -45,11 +46,14 @@ public:
 private:
     /// Weight of emission met by a ray, against light sampling.
     template <class F>
-    F emissionWeight(const Scene& scene, const RayGroup<F>& g, const UInt<F>& light, F lightPdf) const {
+    F emissionWeight(const Step<F>& step, const RayGroup<F>& g, const UInt<F>& light, F lightPdf) const {
         const Mask<F> whole = g.bsdfPdf == F(0.f);
         if (strategy_ == Strategy::BsdfOnly) return F(1.f);
         if (strategy_ == Strategy::LightOnly) return select(whole, F(1.f), F(0.f));
-        const F other = lightPdf * scene.lightSampler.probability<F>(light);
+        const LightSampler& sampler = step.scene.lightSampler;
+        LitPoint<F> left{};   // where the ray comes from
+        if (sampler.isByPlace()) left = {g.origin, unpackDirection<F>(gather(step.batch.slots.normal, g.slot))};
+        const F other = lightPdf * sampler.probability<F>(left, light);
         return select(whole, F(1.f), powerHeuristic(g.bsdfPdf, other));
     }
 
@@ -104,7 +108,7 @@ private:
         if (none(emits)) return;
         const UInt<F> id = select(emits, first + at.primitive * at.shape.lightStride, UInt<F>(0u));
         const LightEval<F> e = evaluateLight<F>(step.scene.lights, id, {g.origin, at.p, g.direction});
-        const F weight = emissionWeight(step.scene, g, id, e.pdf);
+        const F weight = emissionWeight(step, g, id, e.pdf);
         const Spectrum<F> value = g.throughput * e.L * weight;
         step.add(g, select(emits, value, Spectrum<F>::constant(F(0.f))));
     }
@@ -149,19 +153,27 @@ private:
     void sampleLights(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at, const Bsdf& bsdf, const Vec3<F>& wo,
                       const Sampler::Numbers<F>& numbers, F gathered, const Mask<F>& lit) const {
         const Scene& scene = step.scene;
-        UInt<F> id;
-        F pick;
-        scene.lightSampler.pick(scene.lightSampler.isSingle() ? F(0.f) : numbers.get1(Dim::LightPick), id, pick);
         // From where rays leave, not from the point itself: both strategies have to see the light from one place. (From a
         // sphere's own inside, rounding puts the point itself inside or outside at random.)
         const Vec3<F> from = offsetOrigin(at.p, at.error, at.ng, -g.direction);
+        LitPoint<F> place{};
+        if (scene.lightSampler.isByPlace()) {
+            // The ray that goes on may meet a light, and has to know what was known here, to the bit.
+            const UInt<F> normal = packDirection(at.frame.n);
+            scatter(step.batch.slots.normal, g.slot, normal);
+            place = {from, unpackDirection<F>(normal)};
+        }
+        UInt<F> id;
+        F pick;
+        scene.lightSampler.pick(place, scene.lightSampler.isSingle() ? F(0.f) : numbers.get1(Dim::LightPick), id, pick);
+        const Mask<F> picked = pick > F(0.f);
         const LightSample<F> light =
             sampleLight<F>(scene.lights, id, from, numbers.get2(Dim::LightPosition));
-        Mask<F> wanted = lit & light.valid;
+        Mask<F> wanted = lit & light.valid & picked;
         if (strategy_ == Strategy::BsdfOnly) wanted = wanted & light.delta;
         if (none(wanted)) return;
         const BsdfEval<F> f = bsdf.evaluate(wo, at.frame.toLocal(light.wi));
-        const F pdf = light.pdf * pick;
+        const F pdf = select(picked, light.pdf * pick, F(1.f));
         F weight = F(1.f) / pdf;
         if (strategy_ == Strategy::Mis) weight = select(light.delta, weight, weight * powerHeuristic(pdf, f.pdf));
         Spectrum<F> value = g.throughput * f.fCos * light.L * weight;

@@ -43,6 +43,7 @@ struct SlotBuffer {
     alignas(64) std::uint32_t seed[kBatchCapacity], index[kBatchCapacity];       ///< SampleAddress
     alignas(64) std::uint32_t pixel[kBatchCapacity], sample[kBatchCapacity];     ///< of the film
     alignas(64) std::uint32_t covered[kBatchCapacity];                           ///< 1: the camera ray met something
+    alignas(64) std::uint32_t normal[kBatchCapacity];                            ///< packed, of the last scattering; where lights are picked by place
 };
 
 struct PathBatch {

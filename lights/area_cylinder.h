@@ -26,6 +26,9 @@ struct CylinderLight : QuadricPlace {
 
     float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
 
+    /// From afar about as bright as a sphere of its surface.
+    std::optional<LightBounds> bounds(const LightTables&) const;
+
     template <class F>
     static LightSample<F> sample(const Records<F, CylinderLight>& light, const LightTables&, const Vec3<F>& p,
                                  const Vec2<F>& u);

@@ -30,6 +30,13 @@ struct DiskLight {
 
     float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
 
+    /// Of the parallelogram round it.
+    std::optional<LightBounds> bounds(const LightTables&) const {
+        const Vec3<float> sum = radiusX + radiusY, difference = radiusX - radiusY;
+        return diffuseBounds({center + sum, center - sum, center + difference, center - difference}, normal,
+                             average(radiance), area, flags);
+    }
+
     template <class F>
     static LightSample<F> sample(const Records<F, DiskLight>& light, const LightTables&, const Vec3<F>& p,
                                  const Vec2<F>& u);

@@ -40,6 +40,12 @@ struct RectangleLight {
 
     float power(const LightTables&) const { return diffusePower(average(radiance), width * height, flags); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const {
+        const Vec3<float> right = corner + axisX * width, up = axisY * height;
+        return diffuseBounds({corner, right, corner + up, right + up}, normal, average(radiance), width * height,
+                             flags);
+    }
+
     template <class F>
     static LightSample<F> sample(const Records<F, RectangleLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u);

@@ -32,6 +32,9 @@ struct SphereLight : QuadricPlace {
 
     float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
 
+    /// Of the box round the whole ellipsoid, which from afar is a disk of a quarter of its surface.
+    std::optional<LightBounds> bounds(const LightTables&) const;
+
     template <class F>
     static LightSample<F> sample(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u);

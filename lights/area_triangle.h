@@ -35,6 +35,10 @@ struct TriangleLight {
 
     float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const {
+        return diffuseBounds({corner, corner + edgeB, corner + edgeC}, normal, average(radiance), area, flags);
+    }
+
     template <class F>
     static LightSample<F> sample(const Records<F, TriangleLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u);

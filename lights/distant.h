@@ -28,6 +28,8 @@ struct DistantLight {
         return kPi * tables.sceneRadius * tables.sceneRadius * average(irradiance);
     }
 
+    std::optional<LightBounds> bounds(const LightTables&) const { return {}; }
+
     template <class F>
     static LightSample<F> sample(const Records<F, DistantLight>& light, const LightTables&, const Vec3<F>&,
                                  const Vec2<F>&) {

@@ -38,6 +38,10 @@ struct GoniometricLight : PlacedLight {
 
     float power(const LightTables&) const { return 4.f * kPi * mean * average(intensity); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const {
+        return LightBounds::ofPoint(position, mean * average(intensity));
+    }
+
     template <class F>
     static LightSample<F> sample(const Records<F, GoniometricLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>&) {

@@ -18,6 +18,8 @@ struct ConstantInfiniteLight {
 
     float power(const LightTables& tables) const { return infinitePower(average(radiance), tables); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const { return {}; }
+
     template <class F>
     static LightSample<F> sample(const Records<F, ConstantInfiniteLight>& light, const LightTables&, const Vec3<F>&,
                                  const Vec2<F>& u) {

@@ -40,6 +40,8 @@ struct ImageInfiniteLight {
 
     float power(const LightTables& tables) const { return infinitePower(mean, tables); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const { return {}; }
+
     template <class F>
     static LightSample<F> sample(const Records<F, ImageInfiniteLight>& light, const LightTables& tables, const Vec3<F>&,
                                  const Vec2<F>& u) {

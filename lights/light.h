@@ -20,13 +20,16 @@
 //   static LightEval<F> evaluate(const Records<F, T>&, const LightTables&, const LightHit<F>&);
 //
 //   float power(const LightTables&) const;   // emitted flux, the mean of the channels; for light selection only
+//   std::optional<LightBounds> bounds(const LightTables&) const;   // nothing for lights without a place; likewise
 // See lights/registry.h.
 // Thread safety: immutable once the scene is built.
 #pragma once
 
 #include "core/base/plugin.h"
 #include "core/math/records.h"
+#include "lights/light_bounds.h"
 
+#include <optional>
 #include <vector>
 
 namespace penumbra {

@@ -15,6 +15,10 @@ struct PlacedLight {
 
     /// At the point `at` of the light's space. Error(BadData) where the matrix is singular.
     void place(const Matrix4& worldFromLight, Vec3d at);
+
+    /// Of a light that shines, with all its intensity up to the inner angle (radians), within the outer one round
+    /// `axis` (a unit vector of the light's space). Where the matrix stretches, of one that shines in all directions.
+    LightBounds coneBounds(const Vec3<float>& axis, double inner, double outer, double intensity) const;
 };
 
 /// The unit direction w of the world, in the light's space and again of unit length.

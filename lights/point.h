@@ -24,6 +24,10 @@ struct PointLight {
 
     float power(const LightTables&) const { return 4.f * kPi * average(intensity); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const {
+        return LightBounds::ofPoint(position, average(intensity));
+    }
+
     template <class F>
     static LightSample<F> sample(const Records<F, PointLight>& light, const LightTables&, const Vec3<F>& p,
                                  const Vec2<F>&) {

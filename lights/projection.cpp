@@ -38,4 +38,9 @@ ProjectionLight ProjectionLight::make(const Matrix4& worldFromLight, std::span<c
     return light;
 }
 
+std::optional<LightBounds> ProjectionLight::bounds(const LightTables&) const {
+    const double x = 0.5 / perTangentX, y = 0.5 / perTangentY;
+    return coneBounds({0, 0, 1}, 0, std::atan(std::hypot(x, y)), flux / (4 * x * y));
+}
+
 }  // namespace penumbra

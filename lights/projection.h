@@ -40,6 +40,8 @@ struct ProjectionLight : PlacedLight {
 
     float power(const LightTables&) const { return flux; }
 
+    std::optional<LightBounds> bounds(const LightTables&) const;
+
     template <class F>
     static LightSample<F> sample(const Records<F, ProjectionLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>&) {

@@ -54,6 +54,7 @@ public:
     /// The lights that a ray which leaves the scene meets: all of them.
     std::span<const std::uint32_t> infiniteIds() const { return infiniteIds_; }
     float power(std::uint32_t id) const;
+    std::optional<LightBounds> bounds(std::uint32_t id) const;
     /// Whether the light is of one of these types.
     template <class... Ts>
     bool isA(std::uint32_t id) const {
@@ -91,6 +92,10 @@ inline float LightTable::power(std::uint32_t id) const {
     float result = 0.f;
     dispatch(LightTypes{}, tag(id), [&]<class T>() { result = rows<T>()[row(id)].power(tables); });
     return result;
+}
+
+inline std::optional<LightBounds> LightTable::bounds(std::uint32_t id) const {
+    return dispatch(LightTypes{}, tag(id), [&]<class T>() { return rows<T>()[row(id)].bounds(tables); });
 }
 
 namespace detail {

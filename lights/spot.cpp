@@ -25,4 +25,9 @@ SpotLight SpotLight::make(const Matrix4& worldFromLight, Vec3d from, Vec3d axis,
     return light;
 }
 
+std::optional<LightBounds> SpotLight::bounds(const LightTables&) const {
+    const auto angleOf = [](double versine) { return 2 * std::asin(std::sqrt(std::min(versine / 2, 1.))); };
+    return coneBounds(axis, angleOf(versineInner), angleOf(versineOuter), average(intensity));
+}
+
 }  // namespace penumbra

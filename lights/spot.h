@@ -40,6 +40,8 @@ struct SpotLight : PlacedLight {
     float unitPower() const { return kPi * (versineInner + versineOuter); }
     float power(const LightTables&) const { return unitPower() * average(intensity); }
 
+    std::optional<LightBounds> bounds(const LightTables&) const;
+
     template <class F>
     static LightSample<F> sample(const Records<F, SpotLight>& light, const LightTables&, const Vec3<F>& p,
                                  const Vec2<F>&) {

@@ -52,7 +52,7 @@ struct IntegratorSettings {
     int maxDepth = 5;                     ///< scattering events, as pbrt counts them
     RouletteRule roulette = RouletteRule::Late;
     Strategy strategy = Strategy::Mis;
-    LightSelection lightSelection = LightSelection::Power;
+    LightSelection lightSelection = LightSelection::Bvh;
     float maxDistance = kInfinity;        ///< ambientocclusion
     bool cosineSampling = true;           ///< ambientocclusion
 };

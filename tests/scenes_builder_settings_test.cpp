@@ -134,6 +134,11 @@ TEST(BuildIntegrator, KnowsTheFormatsNames) {
     EXPECT_EQ(integrator("").scene.integrator.maxDepth, 5);
     EXPECT_EQ(integrator("Integrator \"volpath\" \"integer maxdepth\" 9").scene.integrator.maxDepth, 9);
     EXPECT_TRUE(integrator("Integrator \"volpath\" \"string lightsampler\" \"bvh\"").warnings.all().empty());
+    EXPECT_EQ(integrator("").scene.integrator.lightSelection, LightSelection::Bvh);
+    EXPECT_EQ(integrator("Integrator \"path\" \"string lightsampler\" \"power\"").scene.integrator.lightSelection,
+              LightSelection::Power);
+    EXPECT_TRUE(integrator("Integrator \"path\" \"string lightsampler\" \"pwoer\"").warnsOf("did you mean 'power'?"));
+    EXPECT_TRUE(integrator("Integrator \"path\" \"string lightsampler\" \"exhaustive\"").warnsOf("not there yet"));
     EXPECT_EQ(integrator("Integrator \"path\" \"string lightsampler\" \"uniform\"").scene.integrator.lightSelection,
               LightSelection::Uniform);
     EXPECT_EQ(integrator("Integrator \"simplepath\" \"bool samplelights\" false").scene.integrator.strategy,

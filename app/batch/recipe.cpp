@@ -31,7 +31,12 @@ const char* intersectionName(IntersectionMode mode) {
 }  // namespace
 
 const char* lightSelectionName(LightSelection selection) {
-    return selection == LightSelection::Uniform ? "uniform" : "power";
+    switch (selection) {
+        case LightSelection::Uniform: return "uniform";
+        case LightSelection::Power: return "power";
+        case LightSelection::Bvh: break;
+    }
+    return "bvh";
 }
 
 std::string repeatCommand(const RenderOptions& options) {

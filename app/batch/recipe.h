@@ -18,7 +18,7 @@ std::string replayCommand(const RenderJob& job, InvalidSample sample);
 /// A JSON object.
 std::string recipeJson(const RenderJob& job);
 
-/// "power" or "uniform", as --light-selection takes it.
+/// "bvh", "power" or "uniform", as --light-selection takes it.
 const char* lightSelectionName(LightSelection selection);
 
 }  // namespace penumbra

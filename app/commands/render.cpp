@@ -277,8 +277,12 @@ void addTransport(Arguments& arguments, RenderRequest& r) {
         b.strategy,
         "how light is looked for: both ways combined, scattered rays alone, light samples alone (default: mis)");
     addEnum<LightSelection>(arguments, "--light-selection",
-                            {{"power", LightSelection::Power}, {"uniform", LightSelection::Uniform}}, b.lightSelection,
-                            "which light is sampled next (default: power)");
+                            {{"bvh", LightSelection::Bvh},
+                             {"power", LightSelection::Power},
+                             {"uniform", LightSelection::Uniform}},
+                            b.lightSelection,
+                            "which light is sampled next: by what it may contribute at the place, by its power, or any "
+                            "alike (default: bvh)");
     addEnum<bool>(
         arguments, "--light-sampling", {{"solid-angle", false}, {"area", true}}, b.classicArea,
         "how a point on an area light is chosen: by the solid angle it covers, or evenly by area, the classic "

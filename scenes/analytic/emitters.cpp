@@ -163,7 +163,7 @@ void addManyLights(std::vector<AnalyticScene>& scenes) {
                                emitter(2, rectangleZ(-1, 0, 0, 1, 1, Facing::Negative)) +
                                emitter(3, rectangleZ(-1, 0, -1, 0, 1, Facing::Negative)) +
                                emitter(10, rectangleZ(0, 1, -1, 0, 1, Facing::Negative));
-    for (const char* picks : {"uniform", "power"}) {
+    for (const char* picks : {"uniform", "power", "bvh"}) {
         AnalyticScene s =
             point(fmt::format("B7 four lights, {}", picks),
                   "four corner lights of radiances 1, 2, 3 and 10: sixteen times B7", lights, 16 * underCorner(1, 1));

@@ -87,15 +87,27 @@ const IntegratorRule* findIntegrator(const std::string& name) {
     return found == std::end(kIntegrators) ? nullptr : found;
 }
 
+/// As in pbrt, an unknown one is said and replaced.
+LightSelection readLightSelection(const ParameterSet& p, BuildContext& context) {
+    const std::string name = p.text("lightsampler", "bvh");
+    if (name == "uniform") return LightSelection::Uniform;
+    if (name == "power") return LightSelection::Power;
+    if (name == "exhaustive") {
+        context.warn(p.findAny("lightsampler")->where, "the light sampler 'exhaustive' is not there yet; 'bvh' stands in for it");
+    } else if (name != "bvh") {
+        const std::vector<std::string> known{"bvh", "uniform", "power", "exhaustive"};
+        context.warn(p.findAny("lightsampler")->where,
+                     "unknown light sampler " + quote(name) + suggestion(name, known) + "; 'bvh' stands in for it");
+    }
+    return LightSelection::Bvh;
+}
+
 void readIntegratorParameters(const Entity& entity, const IntegratorRule& rule, IntegratorSettings& s,
                               BuildContext& context) {
     const ParameterSet& p = entity.parameters;
     const std::string ours = rule.ours;
     if (ours == "path") s.maxDepth = context.integer(p, "maxdepth", 5, 0, 1 << 30);
-    if (ours == "path" || ours == "direct")
-        // Others than these two select better than uniformly, as ours by power does.
-        s.lightSelection =
-            p.text("lightsampler", "power") == "uniform" ? LightSelection::Uniform : LightSelection::Power;
+    if (ours == "path" || ours == "direct") s.lightSelection = readLightSelection(p, context);
     if (ours == "ambientocclusion") {
         s.cosineSampling = p.boolean("cossample", true);
         s.maxDistance = p.number("maxdistance", kInfinity);
