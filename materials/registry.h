@@ -12,6 +12,7 @@
 // the ids of mixes (mix.h), kMixFlag + row, which no closure belongs to; the members of a mix are older than itself.
 #pragma once
 
+#include "materials/blinn.h"
 #include "materials/coated_diffuse.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
@@ -19,6 +20,7 @@
 #include "materials/diffuse_transmission.h"
 #include "materials/interface.h"
 #include "materials/mix.h"
+#include "materials/phong.h"
 #include "materials/relief.h"
 #include "materials/thin_dielectric.h"
 
@@ -32,7 +34,7 @@ namespace penumbra {
 
 using MaterialTypes =
     TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial,
-             ThinDielectricMaterial, DiffuseTransmissionMaterial>;
+             ThinDielectricMaterial, DiffuseTransmissionMaterial, PhongMaterial, BlinnMaterial>;
 
 /// All that a scene file may call a material: those of MaterialTypes, and mixes of them.
 std::vector<PluginInfo> materialPlugins();

@@ -120,6 +120,9 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indice
                "Translate 1.5 1.4 -.6\nMaterial \"diffusetransmission\"\nShape \"disk\" \"float radius\" .4\n"
                "Translate -2.6 0 0\nMaterial \"thindielectric\"\nShape \"disk\" \"float radius\" .4\n") +
            scoped(
+               "Translate 1.3 .2 -1.8\nMaterial \"phong\" \"texture kd\" \"check\"\nShape \"sphere\" \"float radius\" .2\n"
+               "Translate -2.7 0 0\nMaterial \"blinn\" \"rgb ks\" [ .6 .5 .2 ]\nShape \"sphere\" \"float radius\" .2\n") +
+           scoped(
                "Translate .6 .25 -1.6\nMaterial \"dielectric\" \"float roughness\" .2\n"
                "Shape \"sphere\" \"float radius\" .25\n") +
            scoped(

@@ -140,6 +140,12 @@ inline std::vector<Settings> settingsOf(std::string_view material) {
         add({color("reflectance", 0, 0, 0), color("transmittance", 0.2f, 0.5f, 0.9f)});
         add({color("reflectance", 0.8f, 0.5f, 0.1f), color("transmittance", 0, 0, 0)});
         add({color("reflectance", 0.5f, 0.25f, 0.1f), color("transmittance", 0.4f, 0.3f, 0.1f), number("scale", 0.5f)});
+    } else if (material == "phong" || material == "blinn") {
+        add({color("kd", 0, 0, 0), color("ks", 1, 1, 1), number("exponent", 1)});
+        add({color("kd", 0, 0, 0), color("ks", 1, 0.5f, 0), number("exponent", 2.5f)});
+        add({color("kd", 0.9f, 0, 0.3f), color("ks", 0, 0, 0)});
+        add({color("kd", 0, 0, 0), color("ks", 0, 0, 0)});
+        add({color("kd", 0.7f, 0.2f, 0.3f), color("ks", 0.9f, 0.1f, 0.7f), number("exponent", 400)});
     } else if (material == "coateddiffuse") {
         add({color("reflectance", 1, 1, 1)});
         add({color("reflectance", 0, 0, 0), number("roughness", 0.1f)});

@@ -281,6 +281,29 @@ void addMixes(std::vector<AnalyticScene>& scenes) {
                       .samplesPerPixel = 256});
 }
 
+/// Powers of a cosine under a disk that covers 30 degrees about the normal: its share of the lobe, whose closed forms are those
+/// of int cos^n(t) cos t sin t dt (Phong) and int cos^n(t / 2) cos t sin t dt (Blinn).
+void addCosineLobes(std::vector<AnalyticScene>& scenes) {
+    const double n = 10, sigma = kPi / 6;
+    const auto blinn = [&](double angle) {
+        const double c = std::cos(angle / 2);
+        return 8 * std::pow(c, n + 4) / (n + 4) - 4 * std::pow(c, n + 2) / (n + 2);
+    };
+    const auto add = [&](const std::string& type, double value) {
+        scenes.push_back({.id = "B16 " + type,
+                          .claim = type + " lobe of exponent 10, normal view, light within 30 degrees",
+                          .text = sceneText({.camera = viewOfOrigin()},
+                                            emitter(1, disk(std::tan(sigma), {0, 0, 1}, Facing::Negative)) +
+                                                fmt::format("Material \"{}\" \"rgb kd\" [ 0 0 0 ] \"rgb ks\" [ 1 1 1 ] "
+                                                            "\"float exponent\" {}\n",
+                                                            type, n) +
+                                                floorSquare(10)),
+                          .expected = grey(value)});
+    };
+    add("phong", 1 - std::pow(std::cos(sigma), n + 2));
+    add("blinn", (blinn(0) - blinn(sigma)) / (blinn(0) - blinn(kPi / 2)));
+}
+
 }  // namespace
 
 std::vector<AnalyticScene> analyticMaterials() {
@@ -292,6 +315,7 @@ std::vector<AnalyticScene> analyticMaterials() {
     addDiffuseFresnel(scenes);
     addCoats(scenes);
     addMixes(scenes);
+    addCosineLobes(scenes);
     return scenes;
 }
 
