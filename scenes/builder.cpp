@@ -19,13 +19,14 @@ void buildSettings(const SceneDescription& description, const BuildOptions& opti
                    Scene& scene) {
     const Shutter shutter = readShutter(description.camera, context);
     scene.film = readFilm(description.film, shutter, options, context);
-    scene.camera = readCamera(description, shutter, scene.film, options, context);
-    scene.hasMotion = scene.camera.moves();
-    scene.filter = Filter(readFilter(description.filter, context));
     SamplerChoice choice = readSampler(description, options, context);
     scene.sampler = choice.sampler;
     scene.samplesPerPixel = choice.samplesPerPixel;
     scene.seed = choice.seed;
+    const float coneScale = readConeScale(description.options, scene.samplesPerPixel);
+    scene.camera = readCamera(description, shutter, scene.film, coneScale, options, context);
+    scene.hasMotion = scene.camera.moves();
+    scene.filter = Filter(readFilter(description.filter, context));
     scene.integrator = readIntegrator(description.integrator, options, context);
     readOptions(description.options, context);
 }

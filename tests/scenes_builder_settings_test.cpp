@@ -196,6 +196,20 @@ TEST(BuildCamera, AnotherAspectOnTheCommandLineMakesAnotherScreen) {
     EXPECT_NEAR(edgeSlope(settings(scene, o).scene), 4, 1e-4);
 }
 
+TEST(BuildCamera, ConesShrinkAsSamplesGrow) {
+    const auto spread = [](int samples, const std::string& option = "") {
+        return buildText(option + "Film \"rgb\" \"integer xresolution\" 100 \"integer yresolution\" 100\n"
+                         "Camera \"perspective\" \"float fov\" 90\nSampler \"sobol\" \"integer pixelsamples\" " +
+                         std::to_string(samples) + "\nWorldBegin\n")
+            .scene.camera.coneSpread();
+    };
+    EXPECT_FLOAT_EQ(spread(1), 0.02f);  // a pixel of a screen of side 2 in the distance 1
+    EXPECT_FLOAT_EQ(spread(16), 0.02f / 4);
+    EXPECT_FLOAT_EQ(spread(64), 0.02f / 8);
+    EXPECT_FLOAT_EQ(spread(1024), 0.02f / 8);
+    EXPECT_EQ(spread(4, "Option \"disabletexturefiltering\" true\n"), 0);
+}
+
 TEST(BuildCamera, SphericalCamerasTakeWhatProjectiveOnesTake) {
     const BuiltScene built = settings(
         "Camera \"spherical\" \"float frameaspectratio\" 2 \"float screenwindow\" [-1 1 -1 1] \"float lensradius\" 1");

@@ -24,13 +24,14 @@ struct CameraRay {
     Vec3<F> origin, direction;
     F time;
     F weight;     ///< what its radiance counts; 0: the ray need not be traced, the sample is black
-    F coneWidth;  ///< of the cone of one pixel at the origin; it gains coneSpread() per unit of distance
+    F coneWidth;  ///< of the ray's cone at the origin; it gains coneSpread() per unit of distance
 };
 
 class Camera {
 public:
     Camera() : Camera(CameraModel{}, {}) {}
-    Camera(CameraModel model, const CameraPlacement& placement);
+    /// `coneScale`: how much of a pixel the cone of a ray covers across.
+    Camera(CameraModel model, const CameraPlacement& placement, float coneScale = 1);
 
     /// `raster`: the point of the film; `lens`, `shutter`: numbers in [0, 1).
     template <class F>

@@ -3,9 +3,9 @@
 //
 // Conventions: uv as the shape gives them, p and n in world space; `width` is how much of the surface the ray's cone
 // covers across, in world space, and `footprint` the same in units of uv (0: a point). The cone of a camera ray is one
-// pixel wide (less at many samples a pixel), so the footprint stands for max(|du/dx|, |dv/dx|, |du/dy|, |dv/dy|) in the
-// formulas of the pbrt format: the w of its image maps is twice the footprint, and its checkerboard spreads over 1.5
-// footprints to either side.
+// pixel wide, divided by the root of the samples a pixel (by 8 at most), so the footprint stands for
+// max(|du/dx|, |dv/dx|, |du/dy|, |dv/dy|) in the formulas of the pbrt format: the w of its image maps is twice the
+// footprint, and its checkerboard spreads over 1.5 footprints to either side.
 // Texture ids index one table for the whole scene. A texture has a kind, and one of kind Spectrum a role; one texture
 // of a scene file that is used under two roles is added twice (and shares its image). kNoTexture means "no texture".
 // Spectra are linear RGB in the film's colour space. Where the role is Albedo, spectrum() gives values in [0, 1].

@@ -16,8 +16,11 @@ const ColorSpace& filmColorSpace(const SceneDescription& scene);
 
 Shutter readShutter(const CameraEntity& camera, const BuildContext& context);
 FilmSettings readFilm(const FilmEntity& film, Shutter shutter, const BuildOptions& options, BuildContext& context);
-Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, const BuildOptions& options,
-                  BuildContext& context);
+/// How much of a pixel the cone of a ray covers across, for the filtering of textures: the more samples there are, the
+/// less each of them stands for.
+float readConeScale(const ParameterSet& options, int samplesPerPixel);
+Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, float coneScale,
+                  const BuildOptions& options, BuildContext& context);
 FilterSettings readFilter(const Entity& filter, BuildContext& context);
 IntegratorSettings readIntegrator(const Entity& integrator, const BuildOptions& options, BuildContext& context);
 

@@ -93,8 +93,8 @@ Shutter readShutter(const CameraEntity& camera, const BuildContext& context) {
     return {open, close};
 }
 
-Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, const BuildOptions& options,
-                  BuildContext& context) {
+Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSettings& film, float coneScale,
+                  const BuildOptions& options, BuildContext& context) {
     const CameraEntity& camera = scene.camera;
     const double askedWidth = scene.film.parameters.integer("xresolution", 1280),
                  askedHeight = scene.film.parameters.integer("yresolution", 720);
@@ -106,7 +106,7 @@ Camera readCamera(const SceneDescription& scene, Shutter shutter, const FilmSett
         context.fail(camera.where,
                      "unknown camera " + quote(camera.type) + suggestion(camera.type, pluginNames(CameraTypes{})));
     context.warnUnused(camera.parameters, input.owner());
-    return Camera(std::move(model), readPlacement(scene, shutter, context));
+    return Camera(std::move(model), readPlacement(scene, shutter, context), coneScale);
 }
 
 }  // namespace penumbra::builder

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace penumbra::builder {
 namespace {
@@ -175,8 +177,13 @@ IntegratorSettings readIntegrator(const Entity& entity, const BuildOptions& opti
     return s;
 }
 
+float readConeScale(const ParameterSet& options, int samplesPerPixel) {
+    if (options.boolean("disabletexturefiltering", false)) return 0;
+    return std::max(0.125f, 1 / std::sqrt(float(samplesPerPixel)));  // the format's rule
+}
+
 void readOptions(const ParameterSet& options, BuildContext& context) {
-    for (const char* name : {"disablepixeljitter", "disabletexturefiltering", "forcediffuse"}) {
+    for (const char* name : {"disablepixeljitter", "forcediffuse"}) {
         const Parameter* p = options.find("bool", name);
         if (p && options.boolean(name, false))
             context.warn(p->where, "the option " + quote(name) + " is not there yet and is ignored");
