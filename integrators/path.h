@@ -167,8 +167,9 @@ private:
         F pick;
         scene.lightSampler.pick(place, scene.lightSampler.isSingle() ? F(0.f) : numbers.get1(Dim::LightPick), id, pick);
         const Mask<F> picked = pick > F(0.f);
-        const LightSample<F> light =
-            sampleLight<F>(scene.lights, id, from, numbers.get2(Dim::LightPosition));
+        LightSample<F> light = sampleLight<F>(scene.lights, id, from, numbers.get2(Dim::LightPosition));
+        if (!scene.lightMasks.empty())
+            light.L *= scene.lightMasks.at<F>(scene.geometry, scene.textures, id, from + light.wi * light.distance);
         Mask<F> wanted = lit & light.valid & picked;
         if (strategy_ == Strategy::BsdfOnly) wanted = wanted & light.delta;
         if (none(wanted)) return;

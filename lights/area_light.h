@@ -32,6 +32,8 @@ inline constexpr std::uint32_t kLightTwoSided = 1;
 inline constexpr std::uint32_t kLightReversed = 2;
 /// Rays pass through the shape (alpha 0), so that only sampling finds the light.
 inline constexpr std::uint32_t kLightUnmet = 4;
+/// The shape has holes, through which its far side can be seen.
+inline constexpr std::uint32_t kLightPierced = 8;
 
 template <class F>
 Mask<F> hasFlag(UInt<F> flags, std::uint32_t flag) {

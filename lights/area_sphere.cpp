@@ -34,7 +34,8 @@ bool SphereLight::make(const Matrix4& worldFromObject, double radius, double zMi
     s.area = float(mappedArea(AreaStretch(world), low, high, s.phiMax));
     s.radiance = radiance;
     s.flags = flags;
-    s.whole = low == -1 && high == 1 && s.phiMax >= kTwoPi;
+    const bool shinesThroughHoles = flags & kLightPierced && flags & (kLightTwoSided | kLightReversed);
+    s.whole = low == -1 && high == 1 && s.phiMax >= kTwoPi && !shinesThroughHoles;
     if (!std::isfinite(s.area)) return false;
     light = s;
     return true;

@@ -48,7 +48,7 @@ void buildWorld(SceneDescription& description, BuildContext& context, Scene& sce
 
 void buildAccelerator(const BuildOptions& options, Scene& scene) {
     const Clock::time_point start = Clock::now();
-    scene.accelerator = Accelerator(scene.geometry, options.intersection);
+    scene.accelerator = Accelerator(scene.geometry, options.intersection, &scene.textures);
     scene.facts.accelerationSeconds = secondsSince(start);
 }
 

@@ -14,6 +14,7 @@
 #include "materials/registry.h"
 #include "samplers/registry.h"
 #include "scenes/description.h"
+#include "scenes/light_masks.h"
 
 #include <array>
 
@@ -70,6 +71,7 @@ struct Scene {
     MaterialTable materials;
     Textures textures;
     LightTable lights;
+    LightMasks lightMasks;
     LightSampler lightSampler;
     std::vector<MediumRecord> media;          ///< row 0: vacuum
     std::uint32_t cameraMedium = 0;

@@ -68,6 +68,7 @@ TEST_P(Determinism, TheSceneHasEverything) {
         for (std::uint32_t id = 0; id < scene.lights.size(); ++id)
             lightTypes.insert(scene.lights.tag(id));
         EXPECT_EQ(lightTypes.size(), LightTypes::size);
+        EXPECT_FALSE(scene.lightMasks.empty());
         std::set<std::uint32_t> materialTypes;
         for (std::uint32_t id = 0; id < scene.materials.size(); ++id)
             materialTypes.insert(scene.materials.tag(id));

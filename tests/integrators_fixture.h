@@ -60,7 +60,7 @@ private:
     TemporaryFolder folder_;
 };
 
-/// Every kind of light and of material, textures, a lens and a filter with negative lobes; nothing moves. 36 x 28
+/// Every kind of light and of material, textures, holes, a lens and a filter with negative lobes; nothing moves. 36 x 28
 /// pixels.
 inline std::string roomText(const std::string& sampler = "sobol", int samples = 8) {
     return "LookAt 0 1.1 -4.5  0 .8 0  0 1 0\n"
@@ -144,6 +144,8 @@ AttributeBegin
   Translate 2 .5 .6
   Shape "sphere" "float radius" .4
 AttributeEnd
+)" + scoped("Material \"diffuse\"\nAttribute \"shape\" \"texture alpha\" \"rough\"\nTranslate .8 1.6 -.5\nShape \"disk\" \"float radius\" .3\n"
+                  "Translate -1.4 0 0\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" .15\n") + R"(
 ObjectBegin "stone"
   Material "coateddiffuse" "texture reflectance" "marble" "string normalmap" "wood.pfm"
   Shape "cylinder" "float radius" .1 "float phimax" 250
@@ -178,7 +180,7 @@ Material "diffuse" "rgb reflectance" [ .6 .6 .6 ]
 Shape "trianglemesh" "point3 P" [ -4 0 -4  4 0 -4  4 0 4  -4 0 4 ] "integer indices" [ 0 2 1 0 3 2 ]
 ObjectBegin "wheel"
   Material "conductor" "float roughness" .1
-  Shape "trianglemesh" "point3 P" [ -.5 0 0  .5 0 0  .5 1 0  -.5 1 0 ] "integer indices" [ 0 1 2 0 2 3 ]
+  Shape "trianglemesh" "point3 P" [ -.5 0 0  .5 0 0  .5 1 0  -.5 1 0 ] "integer indices" [ 0 1 2 0 2 3 ] "float alpha" .7
   Material "diffuse" "rgb reflectance" [ .7 .3 .2 ]
   AttributeBegin
 )" + moving("Rotate 70 0 0 1\n") +

@@ -1,6 +1,7 @@
 #include "core/geometry/accelerator.h"
 
 #include "core/base/error.h"
+#include "core/geometry/alpha_mask.h"
 #include "core/geometry/quadrics.h"
 
 #if PENUMBRA_EMBREE_MAJOR >= 4
@@ -9,6 +10,8 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 
 namespace penumbra {
@@ -31,31 +34,75 @@ struct LiveLanes {
     }
 };
 
-/// Eight rays in a quadric's object space.
-struct LocalRays {
-    Vec3<Lanes8f> origin, direction;
-    Lanes8f near, far;
-    LocalRays(const RayPacket& r, const QuadricRecord& q)
-        : near(load<Lanes8f>(r.near)), far(load<Lanes8f>(r.far)) {
-        const Affine<Lanes8f> m = loadAffine<Lanes8f>(&q.objectFromWorld, Lanes8u(0u));
-        origin = m.point({load<Lanes8f>(r.originX), load<Lanes8f>(r.originY), load<Lanes8f>(r.originZ)});
-        direction = m.vector({load<Lanes8f>(r.directionX), load<Lanes8f>(r.directionY), load<Lanes8f>(r.directionZ)});
+Mask8 loadValid(const int* valid) { return Mask8(detail::V8i(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(valid)))); }
+
+/// Rays in the space of a group, as callbacks see them.
+template <class F>
+struct TracedRays {
+    GroupRay<F> ray;
+    F near, far;
+};
+
+TracedRays<Lanes8f> raysOf(const RayPacket& r) {
+    return {{{load<Lanes8f>(r.originX), load<Lanes8f>(r.originY), load<Lanes8f>(r.originZ)},
+             {load<Lanes8f>(r.directionX), load<Lanes8f>(r.directionY), load<Lanes8f>(r.directionZ)},
+             load<Lanes8f>(r.time)},
+            load<Lanes8f>(r.near),
+            load<Lanes8f>(r.far)};
+}
+TracedRays<float> rayOf(RTCRayN* r, unsigned n, unsigned i) {
+    return {{{RTCRayN_org_x(r, n, i), RTCRayN_org_y(r, n, i), RTCRayN_org_z(r, n, i)},
+             {RTCRayN_dir_x(r, n, i), RTCRayN_dir_y(r, n, i), RTCRayN_dir_z(r, n, i)},
+             RTCRayN_time(r, n, i)},
+            RTCRayN_tnear(r, n, i),
+            RTCRayN_tfar(r, n, i)};
+}
+
+template <class F, class IsThere = NoHoles>
+QuadricHit<F> meetQuadric(const QuadricRecord& q, const TracedRays<F>& r, const IsThere& isThere = {}) {
+    const Affine<F> m = loadAffine<F>(&q.objectFromWorld, UInt<F>(0u));
+    return intersectQuadric(q, m.point(r.ray.origin), m.vector(r.ray.direction), r.near, r.far, isThere);
+}
+
+/// What the user pointer of a shape with holes leads to.
+struct MaskedShape {
+    AlphaMask mask;
+    std::uint32_t firstInstance;
+
+    /// The row of the instance that a callback's context names.
+    std::uint32_t instanceRow(std::uint32_t embreeId) const { return embreeId == kNoHit ? kNone : embreeId - firstInstance; }
+};
+
+// The two kinds of quadrics, made of the user pointer and of the instance that a callback comes from.
+
+struct WholeQuadric {
+    const QuadricRecord& record;
+    WholeQuadric(const void* user, std::uint32_t) : record(*static_cast<const QuadricRecord*>(user)) {}
+    template <class F>
+    QuadricHit<F> meet(const TracedRays<F>& r) const { return meetQuadric(record, r); }
+};
+
+struct MaskedQuadric {
+    const AlphaMask& mask;
+    const QuadricRecord& record;
+    std::uint32_t instance;
+    MaskedQuadric(const void* user, std::uint32_t embreeId)
+        : mask(static_cast<const MaskedShape*>(user)->mask),
+          record(mask.quadric()),
+          instance(static_cast<const MaskedShape*>(user)->instanceRow(embreeId)) {}
+    template <class F>
+    QuadricHit<F> meet(const TracedRays<F>& r) const {
+        return meetQuadric(record, r, [&](const F& t, bool farSide) { return mask.meetsQuadric(r.ray, t, instance, farSide); });
     }
 };
 
-Mask8 loadValid(const int* valid) { return Mask8(detail::V8i(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(valid)))); }
+// The callbacks see the packets of the calls below, so N is 8; single rays (N = 1) come one by one.
 
-// The callbacks see the packets of the calls below, so N is 8; single rays (N = 1) are moved into lane 0 of a packet.
-
-void intersectPacket(const QuadricRecord& q, Mask8 valid, RayHitPacket& rays, unsigned primitive, unsigned geometry, unsigned instance) {
-    const LocalRays local(rays.ray, q);
-    const QuadricHit<Lanes8f> hit = intersectQuadric(q, local.origin, local.direction, local.near, local.far);
-    const Mask8 met = hit.hit & valid;
-    if (none(met)) return;
+void store(RayHitPacket& rays, const Mask8& met, const Lanes8f& t, unsigned primitive, unsigned geometry, unsigned instance) {
     const auto put = [&](std::uint32_t* to, std::uint32_t value) {
         store(to, select(met, Lanes8u(value), load<Lanes8f>(to)));
     };
-    store(rays.ray.far, select(met, hit.t, local.far));
+    store(rays.ray.far, select(met, t, load<Lanes8f>(rays.ray.far)));
     store(rays.hit.u, select(met, Lanes8f(0.f), load<Lanes8f>(rays.hit.u)));
     store(rays.hit.v, select(met, Lanes8f(0.f), load<Lanes8f>(rays.hit.v)));
     put(rays.hit.primitive, primitive);
@@ -63,22 +110,22 @@ void intersectPacket(const QuadricRecord& q, Mask8 valid, RayHitPacket& rays, un
     put(rays.hit.instance, instance);
 }
 
+template <class Quadric>
 void onIntersect(const RTCIntersectFunctionNArguments* a) {
-    const auto& q = *static_cast<const QuadricRecord*>(a->geometryUserPtr);
     const unsigned instance = a->context->instID[0];
+    const Quadric quadric(a->geometryUserPtr, instance);
     if (a->N == 8) {
-        intersectPacket(q, loadValid(a->valid), *reinterpret_cast<RayHitPacket*>(a->rayhit), a->primID, a->geomID, instance);
+        auto& rays = *reinterpret_cast<RayHitPacket*>(a->rayhit);
+        const auto hit = quadric.meet(raysOf(rays.ray));
+        const Mask8 met = hit.hit & loadValid(a->valid);
+        if (any(met)) store(rays, met, hit.t, a->primID, a->geomID, instance);
         return;
     }
     RTCRayN* ray = RTCRayHitN_RayN(a->rayhit, a->N);
     RTCHitN* out = RTCRayHitN_HitN(a->rayhit, a->N);
     for (unsigned i = 0; i < a->N; ++i) {
         if (!a->valid[i]) continue;
-        const Affine<float> m = loadAffine<float>(&q.objectFromWorld, 0u);
-        const auto hit = intersectQuadric<float>(
-            q, m.point({RTCRayN_org_x(ray, a->N, i), RTCRayN_org_y(ray, a->N, i), RTCRayN_org_z(ray, a->N, i)}),
-            m.vector({RTCRayN_dir_x(ray, a->N, i), RTCRayN_dir_y(ray, a->N, i), RTCRayN_dir_z(ray, a->N, i)}),
-            RTCRayN_tnear(ray, a->N, i), RTCRayN_tfar(ray, a->N, i));
+        const auto hit = quadric.meet(rayOf(ray, a->N, i));
         if (!hit.hit) continue;
         RTCRayN_tfar(ray, a->N, i) = hit.t;
         RTCHitN_u(out, a->N, i) = RTCHitN_v(out, a->N, i) = 0.f;
@@ -88,29 +135,23 @@ void onIntersect(const RTCIntersectFunctionNArguments* a) {
     }
 }
 
+template <class Quadric>
 void onOccluded(const RTCOccludedFunctionNArguments* a) {
-    const auto& q = *static_cast<const QuadricRecord*>(a->geometryUserPtr);
+    const Quadric quadric(a->geometryUserPtr, a->context->instID[0]);
     if (a->N == 8) {
         auto& ray = *reinterpret_cast<RayPacket*>(a->ray);
-        const LocalRays local(ray, q);
-        const auto hit = intersectQuadric(q, local.origin, local.direction, local.near, local.far);
-        store(ray.far, select(hit.hit & loadValid(a->valid), Lanes8f(-kInfinity), local.far));
+        const TracedRays<Lanes8f> rays = raysOf(ray);
+        store(ray.far, select(quadric.meet(rays).hit & loadValid(a->valid), Lanes8f(-kInfinity), rays.far));
         return;
     }
-    for (unsigned i = 0; i < a->N; ++i) {
-        if (!a->valid[i]) continue;
-        const Affine<float> m = loadAffine<float>(&q.objectFromWorld, 0u);
-        const auto hit = intersectQuadric<float>(
-            q, m.point({RTCRayN_org_x(a->ray, a->N, i), RTCRayN_org_y(a->ray, a->N, i), RTCRayN_org_z(a->ray, a->N, i)}),
-            m.vector({RTCRayN_dir_x(a->ray, a->N, i), RTCRayN_dir_y(a->ray, a->N, i), RTCRayN_dir_z(a->ray, a->N, i)}),
-            RTCRayN_tnear(a->ray, a->N, i), RTCRayN_tfar(a->ray, a->N, i));
-        if (hit.hit) RTCRayN_tfar(a->ray, a->N, i) = -kInfinity;
-    }
+    for (unsigned i = 0; i < a->N; ++i)
+        if (a->valid[i] && quadric.meet(rayOf(a->ray, a->N, i)).hit) RTCRayN_tfar(a->ray, a->N, i) = -kInfinity;
 }
 
 /// Bounds of the whole sphere, disk or cylinder, a little widened for rounding.
+template <class Quadric>
 void onBounds(const RTCBoundsFunctionArguments* a) {
-    const auto& q = *static_cast<const QuadricRecord*>(a->geometryUserPtr);
+    const QuadricRecord& q = Quadric(a->geometryUserPtr, kNoHit).record;
     // A disk or cylinder is a circle that is shifted along its axis, a sphere a circle that turns.
     const bool sphere = q.kind == ShapeKind::Sphere;
     const float middle = sphere ? 0.f : 0.5f * (q.zMin + q.zMax), half = sphere ? 0.f : 0.5f * (q.zMax - q.zMin);
@@ -130,11 +171,39 @@ void onBounds(const RTCBoundsFunctionArguments* a) {
     b.upper_x = upper[0], b.upper_y = upper[1], b.upper_z = upper[2];
 }
 
+/// Called where a ray may meet a triangle of a mesh with holes; Embree has put the distance into the ray. More often than not
+/// one lane alone is valid.
+void onTriangle(const RTCFilterFunctionNArguments* a) {
+    const auto& shape = *static_cast<const MaskedShape*>(a->geometryUserPtr);
+    const std::uint32_t instance = shape.instanceRow(a->context->instID[0]);
+    if (a->N == 8) {
+        const Mask8 valid = loadValid(a->valid);
+        if (std::popcount(bits(valid)) > 1) {
+            const TracedRays<Lanes8f> rays = raysOf(*reinterpret_cast<const RayPacket*>(a->ray));
+            const auto& hit = *reinterpret_cast<const HitPacket*>(a->hit);
+            const Lanes8f zero(0.f);
+            const Vec2<Lanes8f> at = {select(valid, load<Lanes8f>(hit.u), zero), select(valid, load<Lanes8f>(hit.v), zero)};
+            const Lanes8u triangle = select(valid, load<Lanes8f>(hit.primitive), Lanes8u(0u));
+            const Mask8 met = valid & shape.mask.meetsTriangle(rays.ray, rays.far, instance, triangle, at);
+            _mm256_storeu_si256(reinterpret_cast<__m256i*>(a->valid), __m256i(met.v));
+            return;
+        }
+    }
+    for (unsigned i = 0; i < a->N; ++i) {
+        if (!a->valid[i]) continue;
+        const TracedRays<float> r = rayOf(a->ray, a->N, i);
+        const Vec2<float> at = {RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i)};
+        const std::uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
+        a->valid[i] = shape.mask.meetsTriangle(r.ray, r.far, instance, triangle, at) ? -1 : 0;
+    }
+}
+
 }  // namespace
 
 struct Accelerator::State {
     RTCDevice device = nullptr;
     std::vector<RTCScene> scenes;   // one a group; 0 is the world
+    std::vector<MaskedShape> masks;   // of shapes with holes; Embree holds pointers to them
     std::uint32_t firstInstance = 0;
     bool hasInstances = false;
 
@@ -151,20 +220,29 @@ struct Accelerator::State {
         throw Error(ErrorKind::Internal, std::string("Embree failed while ") + what + " (error " + std::to_string(int(error)) + ")");
     }
 
-    void attachMesh(RTCScene scene, const Geometry& g, const ShapeRecord& shape, unsigned id) {
+    /// REQUIRES: masks has room, for Embree keeps the pointer. `row`: of the shapes.
+    MaskedShape* addMask(const Geometry& g, std::uint32_t row, const Textures* textures) {
+        masks.push_back({AlphaMask(g, row, textures), firstInstance});
+        return &masks.back();
+    }
+    /// `mask`: null where the shape has no holes, here and below.
+    void attachMesh(RTCScene scene, const Geometry& g, const ShapeRecord& shape, MaskedShape* mask, unsigned id) {
         RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g.positions.data(), 0, 12, g.positions.size() / 3);
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g.indices.data(), std::size_t(shape.first) * 12, 12,
                                    shape.count);
+        if (mask) {
+            rtcSetGeometryUserData(mesh, mask);
+            rtcSetGeometryIntersectFilterFunction(mesh, onTriangle);
+            rtcSetGeometryOccludedFilterFunction(mesh, onTriangle);
+        }
         attach(scene, mesh, id);
     }
-    void attachQuadric(RTCScene scene, const Geometry& g, const ShapeRecord& shape, unsigned id) {
+    void attachQuadric(RTCScene scene, const Geometry& g, const ShapeRecord& shape, MaskedShape* mask, unsigned id) {
         RTCGeometry user = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(user, 1);
-        rtcSetGeometryUserData(user, const_cast<QuadricRecord*>(&g.quadrics[shape.first]));
-        rtcSetGeometryBoundsFunction(user, onBounds, nullptr);
-        rtcSetGeometryIntersectFunction(user, onIntersect);
-        rtcSetGeometryOccludedFunction(user, onOccluded);
+        if (mask) setQuadric<MaskedQuadric>(user, mask);
+        else setQuadric<WholeQuadric>(user, const_cast<QuadricRecord*>(&g.quadrics[shape.first]));
         attach(scene, user, id);
     }
     void attachInstance(RTCScene scene, const Geometry& g, const InstanceRecord& record, unsigned id) {
@@ -176,7 +254,7 @@ struct Accelerator::State {
         attach(scene, instance, id);
     }
 
-    void buildGroup(const Geometry& g, std::size_t group, IntersectionMode mode) {
+    void buildGroup(const Geometry& g, std::size_t group, IntersectionMode mode, const Textures* textures) {
         RTCScene scene = rtcNewScene(device);
         scenes[group] = scene;
         rtcSetSceneFlags(scene, mode == IntersectionMode::Robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
@@ -185,8 +263,9 @@ struct Accelerator::State {
         for (unsigned i = 0; i < range.shapeCount; ++i) {
             const ShapeRecord& shape = g.shapes[range.firstShape + i];
             if (shape.count == 0 || shape.flags & kShapeInvisible) continue;
-            if (shape.kind == ShapeKind::Mesh) attachMesh(scene, g, shape, i);
-            else attachQuadric(scene, g, shape, i);
+            MaskedShape* mask = shape.isMasked() ? addMask(g, range.firstShape + i, textures) : nullptr;
+            if (shape.kind == ShapeKind::Mesh) attachMesh(scene, g, shape, mask, i);
+            else attachQuadric(scene, g, shape, mask, i);
         }
         if (group == 0)
             for (unsigned i = 0; i < g.instances.size(); ++i) attachInstance(scene, g, g.instances[i], range.shapeCount + i);
@@ -196,6 +275,13 @@ struct Accelerator::State {
     }
 
 private:
+    template <class Quadric>
+    static void setQuadric(RTCGeometry user, void* data) {
+        rtcSetGeometryUserData(user, data);
+        rtcSetGeometryBoundsFunction(user, onBounds<Quadric>, nullptr);
+        rtcSetGeometryIntersectFunction(user, onIntersect<Quadric>);
+        rtcSetGeometryOccludedFunction(user, onOccluded<Quadric>);
+    }
     void attach(RTCScene scene, RTCGeometry geometry, unsigned id) {
         rtcSetGeometryMask(geometry, kVisibleToAll);
         rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_MEDIUM);
@@ -205,14 +291,17 @@ private:
     }
 };
 
-Accelerator::Accelerator(const Geometry& geometry, IntersectionMode mode) : state_(std::make_unique<State>()) {
+Accelerator::Accelerator(const Geometry& geometry, IntersectionMode mode, const Textures* textures)
+    : state_(std::make_unique<State>()) {
     // The same code on every machine, so that every machine gives the same bits. No "threads=": that would cap TBB.
     state_->device = rtcNewDevice("isa=avx2");
     if (!state_->device) throw Error(ErrorKind::Internal, "Embree gives no device");
     state_->firstInstance = geometry.groups[0].shapeCount;
     state_->hasInstances = !geometry.instances.empty();
     state_->scenes.resize(geometry.groups.size());
-    for (std::size_t i = geometry.groups.size(); i-- > 0;) state_->buildGroup(geometry, i, mode);   // the world last: it refers to the others
+    const auto masked = std::count_if(geometry.shapes.begin(), geometry.shapes.end(), [](const ShapeRecord& s) { return s.isMasked(); });
+    state_->masks.reserve(std::size_t(masked));
+    for (std::size_t i = geometry.groups.size(); i-- > 0;) state_->buildGroup(geometry, i, mode, textures);   // the world last: it refers to the others
 }
 Accelerator::Accelerator() = default;
 Accelerator::~Accelerator() = default;

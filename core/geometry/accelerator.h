@@ -15,6 +15,8 @@
 
 namespace penumbra {
 
+class Textures;
+
 enum class IntersectionMode {
     Robust,   ///< watertight (the default)
     Fast      ///< 10 to 28 % faster; about one ray in a million slips through an edge
@@ -31,8 +33,9 @@ struct SceneBounds {
 class Accelerator {
 public:
     Accelerator();
-    /// Builds. `geometry` must outlive this and not change. Throws Error(OutOfMemory or Internal).
-    Accelerator(const Geometry& geometry, IntersectionMode mode);
+    /// Builds. `geometry`'s tables and `textures` (null where no alpha is a texture) must outlive this and not change; they may
+    /// be moved. Throws Error(OutOfMemory or Internal).
+    Accelerator(const Geometry& geometry, IntersectionMode mode, const Textures* textures = nullptr);
     ~Accelerator();
     Accelerator(Accelerator&&) noexcept;
     Accelerator& operator=(Accelerator&&) noexcept;

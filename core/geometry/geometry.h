@@ -40,6 +40,10 @@ struct alignas(64) ShapeRecord {
     // What to add to a vertex number to get its row in normals, uvs, tangents; kNone: the mesh has none.
     std::uint32_t normalShift = kNone, uvShift = kNone, tangentShift = kNone;
     std::uint32_t count = 0;               ///< triangles, or 1
+    float alpha = 1;                       ///< what of a ray the shape stops (alpha_mask.h), unless a texture says it
+    std::uint32_t alphaTexture = kNone;
+
+    bool isMasked() const { return alphaTexture != kNone || !(alpha >= 1.f); }
 };
 
 /// A row of shapes for every lane, with the fields that shading reads.

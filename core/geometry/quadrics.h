@@ -37,13 +37,25 @@ Mask<F> insideQuadricPart(const QuadricRecord& q, const Vec3<F>& p) {
     return in;
 }
 
-/// Nearest hit with near < t < far. `o`, `d` in object space; d need not be a unit vector.
-template <class F>
-QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const Vec3<F>& d, F near, F far) {
+/// Of a quadric that stops every ray: see intersectQuadric.
+struct NoHoles {
+    template <class F>
+    Mask<F> operator()(F, bool) const { return Mask<F>(true); }
+};
+
+/// Nearest hit with near < t < far. `o`, `d` in object space; d need not be a unit vector. `isThere(t, farSide)` says whether
+/// the surface is there where the ray would meet it; `farSide`: at the second of two roots.
+template <class F, class IsThere = NoHoles>
+QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const Vec3<F>& d, F near, F far, const IsThere& isThere = {}) {
+    const auto accept = [&](Mask<F>& meets, F t, bool farSide) {
+        if (any(meets)) meets = meets & isThere(t, farSide);
+    };
     if (q.kind == ShapeKind::Disk) {
         const F t = (F(q.zMin) - o.z) / d.z;   // a parallel ray gives inf or NaN, which no comparison passes
         const Vec3<F> p = {o.x + t * d.x, o.y + t * d.y, F(q.zMin)};
-        return {t, Mask<F>((t > near) & (t < far) & insideQuadricPart(q, p))};
+        Mask<F> meets = (t > near) & (t < far) & insideQuadricPart(q, p);
+        accept(meets, t, false);
+        return {t, meets};
     }
     const F r = F(q.radius);
     // Along the axis a cylinder has no extent to be met; a ray parallel to it gives 0 / 0, and no comparison passes.
@@ -61,8 +73,10 @@ QuadricHit<F> intersectQuadric(const QuadricRecord& q, const Vec3<F>& o, const V
     const F t0 = s / a, t1 = c / s;
     const F first = min(t0, t1), second = max(t0, t1);
     const Mask<F> meets = discriminant >= F(0.f);
-    const Mask<F> firstOk = meets & (first > near) & (first < far) & insideQuadricPart(q, o + d * first);
-    const Mask<F> secondOk = meets & (second > near) & (second < far) & insideQuadricPart(q, o + d * second);
+    Mask<F> firstOk = meets & (first > near) & (first < far) & insideQuadricPart(q, o + d * first);
+    accept(firstOk, first, false);
+    Mask<F> secondOk = meets & !firstOk & (second > near) & (second < far) & insideQuadricPart(q, o + d * second);
+    accept(secondOk, second, true);
     return {select(firstOk, first, second), Mask<F>(firstOk | secondOk)};
 }
 

@@ -28,11 +28,11 @@ struct LocalDerivatives {
 template <class F>
 LocalDerivatives<F> meshInGroup(const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit,
                                 const Mask<F>& isMesh) {
-    const TriangleCorners<F> corners(g, select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));
+    const TriangleCorners<F> corners(g.indices.data(), select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));
     Vec3<F> p[3], n[3];
     Vec2<F> t[3];
-    corners.positions(g, p);
-    corners.uvs(g, shape, isMesh, t);
+    corners.positions(g.positions.data(), p);
+    corners.uvs(g.uvs.data(), shape.uvShift, isMesh, t);
     const Vec2<F> d1 = t[1] - t[0], d2 = t[2] - t[0];
     const F determinant = d1.x * d2.y - d1.y * d2.x;
     const Mask<F> usable = abs(determinant) > F(1e-30f);
@@ -49,7 +49,7 @@ LocalDerivatives<F> meshInGroup(const Geometry& g, const ShapeLanes<F>& shape, c
     out.dndu = out.dndv = zero;
     const Mask<F> smooth = isMesh & (shape.normalShift != UInt<F>(kNone));
     if (any(smooth)) {
-        corners.vectors(g.normals, shape.normalShift, smooth, n);
+        corners.vectors(g.normals.data(), shape.normalShift, smooth, n);
         const Vec3<F> sum = n[0] * ((F(1.f) - hit.u) - hit.v) + n[1] * hit.u + n[2] * hit.v;
         const Mask<F> given = smooth & (dot(sum, sum) > F(0.f));
         out.n = select(given, sum, out.n);

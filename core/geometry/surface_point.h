@@ -45,9 +45,9 @@ Vec3<F> offsetOrigin(const Vec3<F>& p, const Vec3<F>& error, const Vec3<F>& ng, 
 namespace detail {
 
 template <class F>
-Vec3<F> loadVertex(const std::vector<float>& table, const UInt<F>& row) {
+Vec3<F> loadVertex(const float* table, const UInt<F>& row) {
     F r[4];
-    loadRows4(table.data(), row * UInt<F>(3u), r);
+    loadRows4(table, row * UInt<F>(3u), r);
     return {r[0], r[1], r[2]};
 }
 
@@ -56,26 +56,26 @@ template <class F>
 struct TriangleCorners {
     UInt<F> vertex[3];
 
-    TriangleCorners(const Geometry& g, const UInt<F>& triangle) {
+    TriangleCorners(const std::uint32_t* indices, const UInt<F>& triangle) {
         F row[4];
-        loadRows4(reinterpret_cast<const float*>(g.indices.data()), triangle * UInt<F>(3u), row);
+        loadRows4(reinterpret_cast<const float*>(indices), triangle * UInt<F>(3u), row);
         for (int i = 0; i < 3; ++i) vertex[i] = floatBits(row[i]);
     }
-    void positions(const Geometry& g, Vec3<F> out[3]) const {
-        for (int i = 0; i < 3; ++i) out[i] = loadVertex<F>(g.positions, vertex[i]);
+    void positions(const float* table, Vec3<F> out[3]) const {
+        for (int i = 0; i < 3; ++i) out[i] = loadVertex<F>(table, vertex[i]);
     }
     /// Of normals or tangents; of lanes that are not given any, those of row 0.
-    void vectors(const std::vector<float>& table, const UInt<F>& shift, const Mask<F>& given, Vec3<F> out[3]) const {
+    void vectors(const float* table, const UInt<F>& shift, const Mask<F>& given, Vec3<F> out[3]) const {
         for (int i = 0; i < 3; ++i) out[i] = loadVertex<F>(table, select(given, vertex[i] + shift, UInt<F>(0u)));
     }
     /// The corners of a mesh without uv are (0,0), (1,0), (1,1), and so are those of lanes not wanted.
-    void uvs(const Geometry& g, const ShapeLanes<F>& shape, const Mask<F>& wanted, Vec2<F> out[3]) const {
+    void uvs(const float* table, const UInt<F>& shift, const Mask<F>& wanted, Vec2<F> out[3]) const {
         out[0] = {F(0.f), F(0.f)}, out[1] = {F(1.f), F(0.f)}, out[2] = {F(1.f), F(1.f)};
-        const Mask<F> mapped = wanted & (shape.uvShift != UInt<F>(kNone));
+        const Mask<F> mapped = wanted & (shift != UInt<F>(kNone));
         if (none(mapped)) return;
         for (int i = 0; i < 3; ++i) {
             F row[4];
-            loadRows4(g.uvs.data(), select(mapped, vertex[i] + shape.uvShift, UInt<F>(0u)) * UInt<F>(2u), row);
+            loadRows4(table, select(mapped, vertex[i] + shift, UInt<F>(0u)) * UInt<F>(2u), row);
             out[i] = {select(mapped, row[0], out[i].x), select(mapped, row[1], out[i].y)};
         }
     }
@@ -125,9 +125,9 @@ template <class F>
 void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh,
                  const Affine<F>& place, const Mask<F>& instanced) {
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
-    const TriangleCorners<F> corners(g, select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));
+    const TriangleCorners<F> corners(g.indices.data(), select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));
     Vec3<F> at[3];
-    corners.positions(g, at);
+    corners.positions(g.positions.data(), at);
     const Vec3<F> &p0 = at[0], &p1 = at[1], &p2 = at[2];
     const F b1 = hit.u, b2 = hit.v, b0 = (F(1.f) - b1) - b2;
     s.p = p0 * b0 + p1 * b1 + p2 * b2;
@@ -160,7 +160,7 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
     s.isFlat = none(smooth);
     if (!s.isFlat) {
         Vec3<F> normals[3];
-        corners.vectors(g.normals, shape.normalShift, smooth, normals);
+        corners.vectors(g.normals.data(), shape.normalShift, smooth, normals);
         const Vec3<F> n = normals[0] * b0 + normals[1] * b1 + normals[2] * b2;
         const Mask<F> usable = smooth & (dot(n, n) > F(0.f));
         s.ns = select(usable, n, s.ns);
@@ -173,7 +173,7 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
     const Mask<F> needs = isMesh & shape.has(kShapeNeedsUv | kShapeNeedsTangent);
     if (any(needs)) {
         Vec2<F> uvs[3];
-        corners.uvs(g, shape, needs, uvs);
+        corners.uvs(g.uvs.data(), shape.uvShift, needs, uvs);
         const Vec2<F> &t0 = uvs[0], &t1 = uvs[1], &t2 = uvs[2];
         s.uv = {t0.x * b0 + t1.x * b1 + t2.x * b2, t0.y * b0 + t1.y * b1 + t2.y * b2};
         const Vec2<F> d1 = t1 - t0, d2 = t2 - t0;
@@ -184,7 +184,7 @@ void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& sha
         const Mask<F> given = needs & (shape.tangentShift != UInt<F>(kNone));
         if (any(given)) {
             Vec3<F> tangents[3];
-            corners.vectors(g.tangents, shape.tangentShift, given, tangents);
+            corners.vectors(g.tangents.data(), shape.tangentShift, given, tangents);
             s.tangent = select(given, tangents[0] * b0 + tangents[1] * b1 + tangents[2] * b2, s.tangent);
         }
     }

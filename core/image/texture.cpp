@@ -110,6 +110,9 @@ V TextureTables::evaluate(std::uint32_t id, const TextureContext<F>& at) const {
     return out;
 }
 
+template float TextureTables::evaluate<float, float>(std::uint32_t, const TextureContext<float>&) const;
+template Lanes8f TextureTables::evaluate<Lanes8f, Lanes8f>(std::uint32_t, const TextureContext<Lanes8f>&) const;
+
 // ---------------------------------------------------------------------------------------------------- Textures
 
 Image TextureInput::image(const std::string& path, TransferFunction pngEncoding) {

@@ -110,6 +110,9 @@ public:
     template <class F>
     F scalar(const UInt<F>& texture, const TextureContext<F>& at) const;
 
+    /// For look-ups of one texture that have to outlive a move of this object: texture_plugin.h.
+    const TextureTables& tables() const { return *tables_; }
+
     std::size_t count() const;       ///< of textures in the table
     std::size_t imageCount() const;  ///< of images, each shared by the textures that use it
     std::size_t bytes() const;       ///< of memory held, images included

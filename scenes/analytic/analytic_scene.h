@@ -38,12 +38,13 @@ struct AnalyticScene {
     bool exact = false;
 };
 
-/// All of them, in the order cavities, emitters, cameras, materials.
+/// All of them, in the order cavities, emitters, cameras, materials, masks.
 std::vector<AnalyticScene> analyticScenes();
 
 std::vector<AnalyticScene> analyticCavities();   ///< closed and open furnaces, integrating spheres, interreflection
 std::vector<AnalyticScene> analyticEmitters();   ///< irradiance of every light, form factors
 std::vector<AnalyticScene> analyticCameras();    ///< filters, lenses, shutters, projections
 std::vector<AnalyticScene> analyticMaterials();  ///< Fresnel, slabs, coats, microfacets
+std::vector<AnalyticScene> analyticMasks();      ///< shapes with holes
 
 }  // namespace penumbra

@@ -13,8 +13,10 @@ namespace {
 constexpr float kMost = 1e30f;
 
 std::uint32_t lightFlags(const AreaEmission& emission, const ShapeRecord& shape) {
+    const std::uint32_t sides = emission.twoSided ? kLightTwoSided : 0u;
     // A shape that no ray meets has one strategy only, and its weight must not be shared.
-    return (emission.twoSided ? kLightTwoSided : 0u) | (shape.flags & kShapeInvisible ? kLightUnmet : 0u);
+    if (shape.flags & kShapeInvisible) return sides | kLightUnmet;
+    return sides | (shape.isMasked() ? kLightPierced : 0u);
 }
 
 Vec3<float> rounded(Vec3d v) {

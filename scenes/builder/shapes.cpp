@@ -56,13 +56,12 @@ std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePl
     if (out.material.needsUv) out.record.flags |= kShapeNeedsUv;
     if (out.material.needsTangent) out.record.flags |= kShapeNeedsTangent;
     if (flipsNormal(shape, place)) out.record.flags |= kShapeFlipNormal;
+    readAlpha(shape, out.record);
     const bool isThere = isQuadric(shape) ? buildQuadric(shape, place, out) : buildMesh(shape, place, out);
     readMedia(shape, out);
     readEmission(shape, place, out);
-    const float alpha = readAlpha(shape);
     context_.warnUnused(shape.parameters, owner);
-    if (alpha <= 0) out.record.flags |= kShapeInvisible;
-    if (!isThere || (alpha <= 0 && !out.emission)) return std::nullopt;
+    if (!isThere || (out.record.flags & kShapeInvisible && !out.emission)) return std::nullopt;
     return out;
 }
 
@@ -181,23 +180,18 @@ QuadricRecord ShapeBuilder::readCylinder(const ShapeEntity& shape) {
     return q;
 }
 
-/// What the parameter "alpha" says: at most 0 for a shape that no ray meets. Values between count as 1 for now.
-float ShapeBuilder::readAlpha(const ShapeEntity& shape) {
+/// A number of 0 or less makes the shape invisible, which is for lights.
+void ShapeBuilder::readAlpha(const ShapeEntity& shape, ShapeRecord& record) {
     const ParameterSet& p = shape.parameters;
-    float alpha = 1;
-    const Parameter* given = p.find("texture", "alpha");
-    if (given) {
-        const TextureOperand operand = textures_.scalar(*given);
-        alpha = operand.isConstant() ? operand.constant.r : 0.5f;
-    } else {
-        alpha = p.number("alpha", 1);
-        given = p.findAny("alpha");
+    const Parameter* texture = p.find("texture", "alpha");
+    const TextureOperand alpha = texture ? textures_.scalar(*texture) : TextureOperand::number(p.number("alpha", 1));
+    if (!alpha.isConstant()) {
+        record.alphaTexture = alpha.texture;
+        record.flags |= kShapeNeedsUv;
+        return;
     }
-    if (alpha > 0 && alpha < 1)
-        context_.warnOnce(
-            "alpha", given->where,
-            ownerName("shape", shape.type) + ": an alpha between 0 and 1 is not there yet and counts as 1");
-    return alpha;
+    record.alpha = alpha.constant.r;
+    if (!(record.alpha > 0)) record.flags |= kShapeInvisible;
 }
 
 void ShapeBuilder::readEmission(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {

@@ -51,7 +51,7 @@ private:
     QuadricRecord readSphere(const ShapeEntity& shape);
     QuadricRecord readDisk(const ShapeEntity& shape);
     QuadricRecord readCylinder(const ShapeEntity& shape);
-    float readAlpha(const ShapeEntity& shape);
+    void readAlpha(const ShapeEntity& shape, ShapeRecord& record);
     void readEmission(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     void readMedia(const ShapeEntity& shape, BuiltShape& out);
 

@@ -160,6 +160,8 @@ void WorldBuilder::append(BuiltShape& shape) {
     const bool isMesh = shape.record.kind == ShapeKind::Mesh;
     ShapeRecord record = isMesh ? g.addMesh(std::move(shape.mesh)) : g.addQuadric(shape.quadric);
     record.flags = shape.record.flags;
+    record.alpha = shape.record.alpha;
+    record.alphaTexture = shape.record.alphaTexture;
     record.mediumInside = shape.record.mediumInside;
     record.mediumOutside = shape.record.mediumOutside;
     record.material = scene_.materials.id(shape.material.handle);
@@ -168,6 +170,8 @@ void WorldBuilder::append(BuiltShape& shape) {
             addMeshLights(*shape.emission, g, scene_.lights, record);
         else
             addQuadricLight(*shape.emission, shape.quadric, shape.groupFromObject, scene_.lights, record);
+        if (record.isMasked() && !(record.flags & kShapeInvisible))
+            scene_.lightMasks.add(record.light, scene_.lights.size() - record.light, std::uint32_t(g.shapes.size()));
     }
     g.shapes.push_back(record);
 }

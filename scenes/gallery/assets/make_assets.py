@@ -219,12 +219,12 @@ def lantern(d):
 
 
 def png(width, height, pixel):
-    """An 8-bit RGB PNG; pixel(x, y) gives bytes."""
+    """An 8-bit RGB or RGBA PNG; pixel(x, y) gives bytes."""
     raw = b"".join(b"\0" + bytes(v for x in range(width) for v in pixel(x, y)) for y in range(height))
 
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    header = struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)
+    header = struct.pack(">2I5B", width, height, 8, {3: 2, 4: 6}[len(pixel(0, 0))], 0, 0, 0)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b"")
 
 
@@ -270,6 +270,26 @@ def studs(size=64, rim=0.8, radius=1.1):
         if math.hypot(x, y) < rim:
             n = (x / radius, y / radius, math.sqrt(1 - (x * x + y * y) / (radius * radius)))
         return [round(255 * (0.5 + 0.5 * v)) for v in n]
+    return png(size, size, pixel)
+
+
+def leaf(size=96):
+    """A leaf upon nothing: colour, and in alpha its outline; the stalk is at the bottom, the tip at the top."""
+    def inside(u, v):  # across, in [-1, 1]; along, 0 at the stalk
+        if v < 0.12:
+            return abs(u) < 0.03
+        t = (v - 0.12) / 0.88
+        teeth = 0.02 * abs((14 * t) % 1 - 0.5)
+        return abs(u) < 1.55 * t ** 0.75 * (1 - t) * (1 - 0.2 * t) + teeth * (t < 0.97)
+
+    def pixel(px, py):
+        covered = 0
+        for j in range(4):
+            for i in range(4):
+                covered += inside(2 * (px + (i + 0.5) / 4) / size - 1, 1 - (py + (j + 0.5) / 4) / size)
+        u, v = abs(2 * (px + 0.5) / size - 1), 1 - (py + 0.5) / size
+        vein = u < 0.025 or abs((v - 0.9 * u) * 9 % 1 - 0.5) < 0.06
+        return (112, 142, 56, 255 * covered // 16) if vein else (62, 110, 36, 255 * covered // 16)
     return png(size, size, pixel)
 
 
@@ -335,6 +355,7 @@ def main():
     write("truchet.png", truchet())
     write("bumps.png", bumps())
     write("studs.png", studs())
+    write("leaf.png", leaf())
     write("flower.pbrt", flower())
     write("star.pbrt", star())
     write("tribar.pbrt", tribar())
