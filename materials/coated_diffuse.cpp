@@ -26,7 +26,7 @@ float readOpticalThickness(MaterialInput& input) {
 }  // namespace
 
 CoatedDiffuseMaterial CoatedDiffuseMaterial::make(MaterialInput& input) {
-    CoatedDiffuseMaterial m{RoughnessInputs::make(input)};
+    CoatedDiffuseMaterial m{RoughnessInputs::make(input), {}};
     m.reflectance = input.albedo("reflectance", {0.5f, 0.5f, 0.5f});
     m.eta = readInterfaceIndex(input);
     m.opticalThickness = readOpticalThickness(input);
@@ -42,27 +42,24 @@ CoatedDiffuseMaterial CoatedDiffuseMaterial::make(MaterialInput& input) {
         const std::uint32_t block =
             tables.block({Textured, coat.eta, coat.opticalThickness},
                          [&](std::vector<float>& numbers) { appendTexturedCoat(coat, numbers); });
-        m.setBlock(block, kTexturedCoatRows, tables.data());
+        m.setBlock(block, kTexturedRows, tables.data());
     } else if (rough.smooth) {
         const std::uint32_t block = tables.block({Smooth, coat.eta, coat.opticalThickness},
                                                  [&](std::vector<float>& numbers) { appendSmoothCoat(coat, numbers); });
-        m.setBlock(block, CoatRows{}, tables.data());
+        m.setBlock(block, TableRows{}, tables.data());
     } else {
         const std::uint32_t block =
             tables.block({Constant, coat.eta, coat.opticalThickness, rough.ggx.ax, rough.ggx.ay},
                          [&](std::vector<float>& numbers) { appendConstantCoat(coat, rough.ggx, numbers); });
-        m.setBlock(block, constantCoatRows(rough.ggx), tables.data());
+        m.setBlock(block, constantRows(rough.ggx), tables.data());
     }
     return m;
 }
 
-void CoatedDiffuseMaterial::setBlock(std::uint32_t offset, const CoatRows& rows, const float* tables) {
-    table = offset;
+void CoatedDiffuseMaterial::setBlock(std::uint32_t offset, const TableRows& rows, const float* tables) {
+    RoughnessTableInputs::setBlock(offset, rows);
     rho = tables[offset];
     tau = tables[offset + 2];
-    firstRow = rows.first;
-    lastRow = float(rows.count - 1);
-    rowsPerRoot = rows.count > 1 ? lastRow / (rows.last - rows.first) : 0.f;
 }
 
 }  // namespace penumbra

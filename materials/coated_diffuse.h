@@ -24,11 +24,7 @@ namespace penumbra {
 template <class F>
 struct CoatReader {
     F eta, opticalThickness;
-    Mask<F> smooth;
-    Ggx<F> ggx;
-    const float* tables;
-    UInt<F> offset;  ///< of the lane's block
-    F firstRow, rowsPerRoot, lastRow;
+    RoughnessTable<F> table;
 
     struct Value {
         F transmitted, reflected;
@@ -36,55 +32,16 @@ struct CoatReader {
 
     /// T and R of a direction with z > 0.
     Value operator()(const Vec3<F>& w) const {
-        const F cosine = min(w.z, F(1.f));
         Value smoothValue{F(0.f), F(0.f)};
-        if (any(smooth)) {
-            const DielectricFresnel<F> fresnel = dielectricFresnel(cosine, eta);
+        if (any(table.smooth)) {
+            const DielectricFresnel<F> fresnel = dielectricFresnel(min(w.z, F(1.f)), eta);
             const F path = opticalThickness * eta / max(fresnel.etaCosRefracted, F(1e-6f));
             smoothValue = {(F(1.f) - fresnel.reflectance) * exp(-path), fresnel.reflectance};
         }
-        if (all(smooth)) return smoothValue;
-        const Value roughValue = lookUp(cosine, rowCoordinate(w));
-        return {select(smooth, smoothValue.transmitted, roughValue.transmitted),
-                select(smooth, smoothValue.reflected, roughValue.reflected)};
-    }
-
-    /// rho and tau of coat_table.h, in this order, for lanes with several rows.
-    Value base() const { return betweenRows(rowAt(sqrt(ggx.ax * ggx.ay)), UInt<F>(0u), F(0.f)); }
-    Mask<F> hasRows() const { return lastRow > F(0.f); }
-
-private:
-    F rowAt(F alpha) const {
-        const F row = (sqrt(alpha) - firstRow) * rowsPerRoot;
-        return select(smooth, F(0.f), clamp(row, F(0.f), lastRow));
-    }
-    F rowCoordinate(const Vec3<F>& w) const {
-        if (none(hasRows())) return F(0.f);
-        const F planar = max(w.x * w.x + w.y * w.y, F(1e-20f));
-        const F alpha = sqrt((sqr(ggx.ax * w.x) + sqr(ggx.ay * w.y)) / planar);
-        return rowAt(select(ggx.ax == ggx.ay, ggx.ax, alpha));
-    }
-    Value lookUp(F cosine, F row) const {
-        const F coordinate = sqrt(max(cosine, F(0.f))) * F(float(kCoatCells));
-        const F cell = min(floor(coordinate), F(float(kCoatCells - 1)));
-        const F fraction = coordinate - cell;
-        // Smooth lanes have no cells: they read the head of their block and drop it.
-        const UInt<F> word = select(smooth, UInt<F>(0u), toUInt(cell) * UInt<F>(4u) + UInt<F>(4u));
-        return betweenRows(row, word, fraction);
-    }
-    /// The two functions of the four floats at `word`, each interpolated within its cell and between two rows.
-    Value betweenRows(F row, const UInt<F>& word, F fraction) const {
-        const F below = floor(row), rowFraction = row - below;
-        const auto inRow = [&](F r) {
-            F v[4];
-            loadRows4(tables, offset + toUInt(r) * UInt<F>(kCoatRowFloats) + word, v);
-            return Value{lerp(fraction, v[0], v[1]), lerp(fraction, v[2], v[3])};
-        };
-        const Value first = inRow(below);
-        if (none(rowFraction > F(0.f))) return first;
-        const Value second = inRow(min(below + F(1.f), lastRow));
-        return {lerp(rowFraction, first.transmitted, second.transmitted),
-                lerp(rowFraction, first.reflected, second.reflected)};
+        if (all(table.smooth)) return smoothValue;
+        const auto [transmitted, reflected] = table.at(w);
+        return {select(table.smooth, smoothValue.transmitted, transmitted),
+                select(table.smooth, smoothValue.reflected, reflected)};
     }
 };
 
@@ -121,10 +78,10 @@ struct CoatedDiffuseBsdf {
         const Vec3<F> wo{woGiven.x, woGiven.y, flipSign(below, woGiven.z)};
         const auto fromWo = coat(wo);
         const F top = topProbability(fromWo);
-        const Mask<F> takesTop = uLobe < top, delta = takesTop & coat.smooth;
+        const Mask<F> takesTop = uLobe < top, delta = takesTop & coat.table.smooth;
 
         Vec3<F> m{F(0.f), F(0.f), F(1.f)};
-        if (any(takesTop & !coat.smooth)) m = select(coat.smooth, m, coat.ggx.sampleVisible(wo, u));
+        if (any(takesTop & !coat.table.smooth)) m = select(coat.table.smooth, m, coat.table.ggx.sampleVisible(wo, u));
         Vec3<F> wi = select(takesTop, m * (F(2.f) * max(dot(wo, m), F(0.f))) - wo, cosineHemisphere(u));
         const Mask<F> above = (wo.z > F(0.f)) & (wi.z > F(0.f));
         wi.z = max(wi.z, F(0.f));
@@ -155,20 +112,20 @@ private:
     BsdfEval<F> aboveSurface(const Vec3<F>& wo, const Vec3<F>& wi, const typename CoatReader<F>::Value& fromWo,
                              F top) const {
         F topCos(0.f), topPdf(0.f);
-        if (any(!coat.smooth)) {
+        if (any(!coat.table.smooth)) {
             const Vec3<F> h = wo + wi;
             const F h2 = lengthSquared(h);
-            const GgxReflection<F> r = coat.ggx.reflection(wo, wi, coat.ggx.density(h, h2));
+            const GgxReflection<F> r = coat.table.ggx.reflection(wo, wi, coat.table.ggx.density(h, h2));
             const F fresnel = dielectricFresnel(min(F(0.5f) * sqrt(h2), F(1.f)), coat.eta).reflectance;
-            topCos = select(coat.smooth, F(0.f), r.fCos * fresnel);
-            topPdf = select(coat.smooth, F(0.f), r.pdf * top);
+            topCos = select(coat.table.smooth, F(0.f), r.fCos * fresnel);
+            topPdf = select(coat.table.smooth, F(0.f), r.pdf * top);
         }
         const F both = fromWo.transmitted * coat(wi).transmitted * wi.z;
         return {base * both + Spectrum<F>::constant(topCos), topPdf + (F(1.f) - top) * wi.z * F(kInvPi)};
     }
 };
 
-struct CoatedDiffuseMaterial : RoughnessInputs {
+struct CoatedDiffuseMaterial : RoughnessInputs, RoughnessTableInputs {
     static constexpr ParameterInfo kParameters[] = {
         {"spectrum", "reflectance", "0.5", "of the base; texture or any spectrum"},
         {"float", "eta", "1.5", "index of the coat; a spectrum counts with its mean"},
@@ -190,9 +147,7 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
     SpectrumInput reflectance{};
     float eta = 1.5f, opticalThickness = 0.01f;
     std::uint32_t baseBounces = 5;
-    std::uint32_t table = 0;                                 ///< offset of the block of coat_table.h
-    float rho = 0.f, tau = 0.f;                              ///< of the block's first row
-    float firstRow = 0.f, rowsPerRoot = 0.f, lastRow = 0.f;  ///< CoatRows
+    float rho = 0.f, tau = 0.f;  ///< of the first row of the block (coat_table.h)
 
     static CoatedDiffuseMaterial make(MaterialInput& input);
 
@@ -207,19 +162,19 @@ struct CoatedDiffuseMaterial : RoughnessInputs {
                                         const SurfaceRoughness<F>& rough, const Spectrum<F>& reflectance) {
         using M = CoatedDiffuseMaterial;
         const F eta = m(&M::eta), etaSquared = eta * eta;
-        const CoatReader<F> coat{eta,          m(&M::opticalThickness), rough.smooth,       rough.ggx,     tables,
-                                 m(&M::table), m(&M::firstRow),         m(&M::rowsPerRoot), m(&M::lastRow)};
+        const CoatReader<F> coat{eta, m(&M::opticalThickness), reader(m, tables, rough)};
         F rho = m(&M::rho), tau = m(&M::tau);
-        if (any(coat.hasRows())) {
-            const auto [rowRho, rowTau] = coat.base();
-            rho = select(coat.hasRows(), rowRho, rho);
-            tau = select(coat.hasRows(), rowTau, tau);
+        const Mask<F> hasRows = coat.table.hasRows();
+        if (any(hasRows)) {
+            const auto [rowRho, rowTau] = coat.table.averages();
+            rho = select(hasRows, rowRho, rho);
+            tau = select(hasRows, rowTau, tau);
         }
         const Spectrum<F> series = geometricSum(reflectance * rho, m(&M::baseBounces));
         return {coat, reflectance * series * (F(kInvPi) / etaSquared), F(kPi) * etaSquared * tau};
     }
 
-    void setBlock(std::uint32_t offset, const CoatRows& rows, const float* tables);
+    void setBlock(std::uint32_t offset, const TableRows& rows, const float* tables);
 };
 
 }  // namespace penumbra

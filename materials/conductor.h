@@ -2,53 +2,69 @@
 //
 // Per channel, the complex index of refraction decides the colour at every angle. `reflectance` r instead of eta and k
 // stands for the index 1 + i k, k = 2 sqrt(r) / sqrt(1 - r), which reflects r at normal incidence.
-// Single scattering: rough metals lose the light that would bounce between microfacets.
-// Thread safety: plain values. Sources: fresnel.h, microfacet.h.
+// Single scattering: rough metals lose the light that would bounce between microfacets, unless `multiscatter` gives it back.
+// Thread safety: plain values. Sources: fresnel_rule.h, microfacet.h, compensation.h.
 #pragma once
 
-#include "materials/fresnel.h"
-#include "materials/microfacet.h"
+#include "materials/compensation.h"
 
 namespace penumbra {
 
 template <class F>
 struct ConductorBsdf {
-    ConductorConstants<Spectrum<F>> index;
+    ConductorRule<F> fresnel;
     Ggx<F> ggx;
     Mask<F> smooth;
+    MetalCompensation<F> compensation;
 
     BsdfEval<F> evaluate(const Vec3<F>& woGiven, const Vec3<F>& wiGiven) const {
         const Mask<F> below = woGiven.z < F(0.f);
         const Vec3<F> wo{woGiven.x, woGiven.y, flipSign(below, woGiven.z)};
         const Vec3<F> wi{wiGiven.x, wiGiven.y, flipSign(below, wiGiven.z)};
         const Mask<F> lit = (wo.z > F(0.f)) & (wi.z > F(0.f)) & !smooth;
-        const Vec3<F> h = wo + wi;
-        const F h2 = lengthSquared(h);
-        const GgxReflection<F> r = ggx.reflection(wo, wi, ggx.density(h, h2));
-        const Spectrum<F> fresnel = conductorReflectance(min(F(0.5f) * sqrt(h2), F(1.f)), index);  // wo.m = |h| / 2
-        return {fresnel * select(lit, r.fCos, F(0.f)), select(lit, r.pdf, F(0.f))};
+        const BsdfEval<F> value = aboveSurface(wo, wi);
+        return {select(lit, value.fCos, Spectrum<F>::constant(F(0.f))), select(lit, value.pdf, F(0.f))};
     }
 
-    BsdfSample<F> sample(const Vec3<F>& woGiven, F, const Vec2<F>& u) const {
+    BsdfSample<F> sample(const Vec3<F>& woGiven, F, const Vec2<F>& uGiven) const {
         const Mask<F> below = woGiven.z < F(0.f);
         const Vec3<F> wo{woGiven.x, woGiven.y, flipSign(below, woGiven.z)};
+        Vec2<F> u = uGiven;
+        Mask<F> again(false);
+        if (any(compensation.active)) again = takeBelow(compensation.probability(wo), u.x);
         Vec3<F> m{F(0.f), F(0.f), F(1.f)};
         if (any(!smooth)) m = select(smooth, m, ggx.sampleVisible(wo, u));
         const F cosHalf = clamp(dot(wo, m), F(0.f), F(1.f));
         Vec3<F> wi = m * (F(2.f) * cosHalf) - wo;
-        const Mask<F> valid = (wo.z > F(0.f)) & (wi.z > F(0.f));
-        const Spectrum<F> fresnel = conductorReflectance(cosHalf, index);
-        const F weight = select(smooth, F(1.f), ggx.shadowing(wo, wi));
-        const F pdf = select(smooth, F(1.f), F(0.5f) * ggx.density(m, F(1.f)) / (wo.z + ggx.shape(wo)));
+        if (any(again)) wi = select(again, cosineHemisphere(u), wi);
+        Mask<F> valid = (wo.z > F(0.f)) & (wi.z > F(0.f));
+        Spectrum<F> weight = fresnel(cosHalf) * select(smooth, F(1.f), ggx.shadowing(wo, wi));
+        F pdf = select(smooth, F(1.f), F(0.5f) * ggx.density(m, F(1.f)) / (wo.z + ggx.shape(wo)));
+        if (any(compensation.active)) {
+            const BsdfEval<F> both = aboveSurface(wo, {wi.x, wi.y, max(wi.z, F(0.f))});
+            weight = select(compensation.active, both.fCos * (F(1.f) / max(both.pdf, F(1e-20f))), weight);
+            pdf = select(compensation.active, both.pdf, pdf);
+            valid = valid & (pdf > F(1e-20f));
+        }
         wi.z = flipSign(below, wi.z);
-        return {wi, fresnel * weight, pdf, F(1.f), smooth, valid};
+        return {wi, weight, pdf, F(1.f), smooth, valid};
     }
 
     Mask<F> smoothOnly() const { return smooth; }
-    Spectrum<F> albedo(const Vec3<F>& wo) const { return conductorReflectance(min(abs(wo.z), F(1.f)), index); }
+    Spectrum<F> albedo(const Vec3<F>& wo) const { return fresnel(min(abs(wo.z), F(1.f))); }
+
+private:
+    /// Of rough lanes.
+    BsdfEval<F> aboveSurface(const Vec3<F>& wo, const Vec3<F>& wi) const {
+        const Vec3<F> h = wo + wi;
+        const F h2 = lengthSquared(h);
+        const GgxReflection<F> r = ggx.reflection(wo, wi, ggx.density(h, h2));
+        const BsdfEval<F> single{fresnel(min(F(0.5f) * sqrt(h2), F(1.f))) * r.fCos, r.pdf};  // wo.m = |h| / 2
+        return any(compensation.active) ? compensation.add(single, wo, wi) : single;
+    }
 };
 
-struct ConductorMaterial : RoughnessInputs {
+struct ConductorMaterial : RoughnessInputs, EnergyInputs {
     static constexpr ParameterInfo kParameters[] = {
         {"spectrum", "eta", "metal-Cu-eta", "index of refraction"},
         {"spectrum", "k", "metal-Cu-k", "absorption coefficient"},
@@ -57,6 +73,8 @@ struct ConductorMaterial : RoughnessInputs {
         kURoughnessParameter,
         kVRoughnessParameter,
         kRemapRoughnessParameter,
+        kFresnelParameter,
+        kMultiscatterParameter,
     };
     static constexpr PluginInfo kInfo{"conductor", "metal, smooth or rough (GGX), two-sided", kParameters};
     static constexpr bool kPassThrough = false;
@@ -66,44 +84,81 @@ struct ConductorMaterial : RoughnessInputs {
 
     SpectrumInput reflectance{};
     std::uint32_t byReflectance = 0;
-    Spectrum<float> difference{}, product{};  ///< ConductorConstants where not by reflectance
+    Spectrum<float> difference{}, product{};  ///< of ConductorRule, where not by reflectance
+    std::uint32_t schlick = 0;
+    Spectrum<float> mean{};       ///< meanReflectance, where not by reflectance
+    std::uint32_t meanTable = 0;  ///< of it, where by reflectance
 
     static ConductorMaterial make(MaterialInput& input) {
-        ConductorMaterial m{RoughnessInputs::make(input)};
-        const ParameterSet& parameters = input.parameters();
-        if (parameters.findAny("reflectance")) {
-            if (parameters.findAny("eta") || parameters.findAny("k"))
-                input.fail("a conductor takes either reflectance or eta and k, not both");
-            m.byReflectance = 1;
-            m.reflectance = input.albedo("reflectance", {0.5f, 0.5f, 0.5f});
-            return m;
-        }
-        const ConductorIndex index = input.conductorIndex("eta", "k");
-        // The square of the square must stay finite; reflectance is 1 to float precision long before.
-        const Rgb eta = clamp(index.eta, 0.f, 1e4f), k = clamp(index.k, 0.f, 1e4f);
-        const Rgb difference = eta * eta - k * k, product = 4.f * (eta * eta * k * k);
-        m.difference = {difference.r, difference.g, difference.b};
-        m.product = {product.r, product.g, product.b};
+        ConductorMaterial m{RoughnessInputs::make(input), {}};
+        m.schlick = readSchlick(input);
+        m.readIndex(input);
+        if (input.parameters().boolean("multiscatter", false)) m.compensate(input);
         return m;
     }
 
     template <class F>
     static ConductorBsdf<F> bsdf(const Records<F, ConductorMaterial>& m, const ShadingContext<F>& at) {
+        using M = ConductorMaterial;
         const SurfaceRoughness<F> rough = surface(m, at);
-        ConductorConstants<Spectrum<F>> index{m(&ConductorMaterial::difference), m(&ConductorMaterial::product)};
-        const Mask<F> byReflectance = m(&ConductorMaterial::byReflectance) != UInt<F>(0u);
+        ConductorRule<F> rule{{m(&M::difference), m(&M::product)}, m(&M::schlick) != UInt<F>(0u)};
+        const Mask<F> byReflectance = m(&M::byReflectance) != UInt<F>(0u);
+        Spectrum<F> reflectance = Spectrum<F>::constant(F(0.f));
         if (any(byReflectance)) {
-            const Spectrum<F> r = at.spectrum(m, &ConductorMaterial::reflectance);
-            const Spectrum<F> one = Spectrum<F>::constant(F(1.f));
-            const auto kSquared = [](F x) {
-                const F r = min(x, F(0.9999f));
-                return F(4.f) * r / (F(1.f) - r);
-            };
-            const Spectrum<F> k2{kSquared(r.r), kSquared(r.g), kSquared(r.b)};
-            index.difference = select(byReflectance, one - k2, index.difference);
-            index.product = select(byReflectance, F(4.f) * k2, index.product);
+            reflectance = at.spectrum(m, &M::reflectance);
+            const auto r = constantsOfReflectance(reflectance.r), g = constantsOfReflectance(reflectance.g),
+                       b = constantsOfReflectance(reflectance.b);
+            const Spectrum<F> difference{r.difference, g.difference, b.difference};
+            rule.index.difference = select(byReflectance, select(rule.schlick, reflectance, difference), rule.index.difference);
+            rule.index.product = select(byReflectance, {r.product, g.product, b.product}, rule.index.product);
         }
-        return {index, rough.ggx, rough.smooth};
+        const Mask<F> multiscatter = m(&M::multiscatter) != UInt<F>(0u);
+        MetalCompensation<F> compensation{Mask<F>(false), {}, F(0.f), {}, F(0.f)};
+        if (any(multiscatter)) {
+            const Spectrum<F> looked = meanOf(m, at, rule.schlick, reflectance);
+            compensation = metalCompensation(multiscatter & !rough.smooth, reader(m, at.tables, rough),
+                                             select(byReflectance, looked, m(&M::mean)));
+        }
+        return {rule, rough.ggx, rough.smooth, compensation};
+    }
+
+private:
+    void readIndex(MaterialInput& input) {
+        const ParameterSet& parameters = input.parameters();
+        if (parameters.findAny("reflectance")) {
+            if (parameters.findAny("eta") || parameters.findAny("k"))
+                input.fail("a conductor takes either reflectance or eta and k, not both");
+            byReflectance = 1;
+            reflectance = input.albedo("reflectance", {0.5f, 0.5f, 0.5f});
+            return;
+        }
+        const ConductorIndex index = input.conductorIndex("eta", "k");
+        // The square of the square must stay finite; reflectance is 1 to float precision long before.
+        const Rgb eta = clamp(index.eta, 0.f, 1e4f), k = clamp(index.k, 0.f, 1e4f);
+        const Rgb d = eta * eta - k * k, p = 4.f * (eta * eta * k * k);
+        difference = {d.r, d.g, d.b};
+        product = {p.r, p.g, p.b};
+        if (schlick) difference = conductorReflectance(1.f, ConductorConstants<Spectrum<float>>{difference, product});
+    }
+    void compensate(MaterialInput& input) {
+        static_cast<EnergyInputs&>(*this) = mirrorEnergy(input, *this);
+        if (byReflectance)
+            meanTable = meanReflectanceTable(input);
+        else
+            mean = meanReflectance({{difference, product}, schlick != 0});
+    }
+    /// The mean of Fresnel's factor for a reflectance of perpendicular light.
+    template <class F>
+    static Spectrum<F> meanOf(const Records<F, ConductorMaterial>& m, const ShadingContext<F>& at, const Mask<F>& schlick,
+                              const Spectrum<F>& reflectance) {
+        const UInt<F> table = m(&ConductorMaterial::meanTable);
+        const auto channel = [&](F r) {
+            const F step = r * F(float(kReflectanceSteps)), cell = min(floor(step), F(float(kReflectanceSteps - 1)));
+            const UInt<F> word = table + toUInt(cell);
+            const F exact = lerp(step - cell, gather(at.tables, word), gather(at.tables, word + UInt<F>(1u)));
+            return select(schlick, (F(20.f) * r + F(1.f)) * F(1.f / 21.f), exact);
+        };
+        return {channel(reflectance.r), channel(reflectance.g), channel(reflectance.b)};
     }
 };
 

@@ -5,6 +5,7 @@
 // Optics, 1.5.2 (dielectrics) and 14.2 (metals). Both are brought to one division.
 #pragma once
 
+#include "core/math/spectrum.h"
 #include "core/math/vector.h"
 
 namespace penumbra {
@@ -38,6 +39,13 @@ struct ConductorConstants {
     T difference;  ///< eta^2 - k^2
     T product;     ///< (2 eta k)^2
 };
+
+/// The index 1 + i k that reflects r of perpendicular light; r = 1 would need k without end.
+template <class F>
+ConductorConstants<F> constantsOfReflectance(F reflectance) {
+    const F r = min(reflectance, F(0.9999f)), kSquared = F(4.f) * r / (F(1.f) - r);
+    return {F(1.f) - kSquared, F(4.f) * kSquared};
+}
 
 template <class F>
 F conductorReflectance(F cosIncident, F difference, F product) {

@@ -11,6 +11,7 @@
 // Thread safety: plain values.
 #pragma once
 
+#include "core/math/warps.h"
 #include "materials/material.h"
 
 namespace penumbra {
@@ -36,9 +37,9 @@ UInt<F> chooseFromMixes(const MixMaterial* mixes, UInt<F> id, F u, const Shading
         if (none(isMix)) return id;
         const Records<F, MixMaterial> mix(mixes, select(isMix, id & UInt<F>(~kMixFlag), UInt<F>(0u)));
         const F amount = clamp(at.scalar(mix, &MixMaterial::amount), F(0.f), F(1.f));
-        const Mask<F> takesSecond = u < amount;
-        const F low = select(takesSecond, F(0.f), amount), length = select(takesSecond, amount, F(1.f) - amount);
-        u = select(isMix, min((u - low) / length, F(kOneMinusEpsilon)), u);
+        F rest = u;
+        const Mask<F> takesSecond = takeBelow(amount, rest);
+        u = select(isMix, rest, u);
         const UInt<F> member = select(takesSecond, mix(&MixMaterial::second), mix(&MixMaterial::first));
         id = select(isMix, member, id);
     }

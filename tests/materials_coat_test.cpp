@@ -185,7 +185,7 @@ TEST(CoatTable, InterpolatesTexturedRoughness) {
     CoatedDiffuseMaterial material;
     std::vector<float> numbers;
     appendTexturedCoat({}, numbers);
-    material.setBlock(0, kTexturedCoatRows, numbers.data());
+    material.setBlock(0, kTexturedRows, numbers.data());
     const Records<float, CoatedDiffuseMaterial> record(&material, 0u);
     for (const float alpha : {0.002f, 0.03f, 0.21f, 0.77f, 1.f}) {
         const auto rough = RoughnessInputs::surface(alpha, alpha);

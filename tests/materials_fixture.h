@@ -21,6 +21,7 @@ namespace penumbra::test {
 struct Setting {
     std::string type, name;
     std::vector<float> numbers;
+    std::string text{};
 };
 using Settings = std::vector<Setting>;
 
@@ -28,6 +29,7 @@ inline std::string describe(std::string_view material, const Settings& settings)
     std::string text(material);
     for (const Setting& s : settings) {
         text += " " + s.name + "=";
+        text += s.text;
         for (const float x : s.numbers)
             text += std::to_string(x).substr(0, 6) + " ";
     }
@@ -43,6 +45,8 @@ public:
             p.name = s.name;
             if (s.type == "integer") {
                 p.values = std::vector<std::int32_t>(s.numbers.begin(), s.numbers.end());
+            } else if (s.type == "string") {
+                p.values = std::vector<std::string>{s.text};
             } else if (s.type == "bool") {
                 p.values = std::vector<std::uint8_t>(s.numbers.begin(), s.numbers.end());
             } else {
@@ -106,6 +110,13 @@ inline Setting plainAlpha() {
     return {"bool", "remaproughness", {0.f}};
 }
 
+inline Setting schlick() {
+    return {"string", "fresnel", {}, "schlick"};
+}
+inline Setting multiscatter() {
+    return {"bool", "multiscatter", {1.f}};
+}
+
 /// Everything a material is tested with: always its defaults, then what matters of its parameters.
 inline std::vector<Settings> settingsOf(std::string_view material) {
     std::vector<Settings> list{{}};
@@ -121,6 +132,12 @@ inline std::vector<Settings> settingsOf(std::string_view material) {
         add({number("roughness", 0.09f)});
         add({number("uroughness", 0.05f), number("vroughness", 0.4f), plainAlpha()});
         add({number("uroughness", 0.9f), number("vroughness", 0.1f), plainAlpha()});
+        add({schlick()});
+        add({schlick(), color("reflectance", 0.8f, 0.4f, 0), number("roughness", 0.2f)});
+        add({multiscatter()});
+        add({multiscatter(), number("roughness", 0.3f)});
+        add({multiscatter(), color("reflectance", 1, 0.5f, 0), number("roughness", 1)});
+        add({multiscatter(), schlick(), number("uroughness", 0.2f), number("vroughness", 0.7f), plainAlpha()});
     } else if (material == "dielectric") {
         add({number("eta", 0.75f)});
         add({number("eta", 1)});
@@ -131,6 +148,11 @@ inline std::vector<Settings> settingsOf(std::string_view material) {
         add({number("eta", 1.33f), number("roughness", 0.2f)});
         add({number("eta", 0.6f), number("roughness", 0.2f)});
         add({number("eta", 2.4f), number("uroughness", 0.1f), number("vroughness", 0.5f), plainAlpha()});
+        add({schlick()});
+        add({schlick(), number("roughness", 0.2f)});
+        add({multiscatter(), number("roughness", 0.3f)});
+        add({multiscatter(), number("eta", 0.6f), number("roughness", 1)});
+        add({multiscatter(), schlick(), number("uroughness", 0.2f), number("vroughness", 0.7f), plainAlpha()});
     } else if (material == "thindielectric") {
         add({number("eta", 1)});
         add({number("eta", 0.7f)});

@@ -79,6 +79,8 @@ TEST(MaterialTextures, ActLikeTheirValue) {
         }
     });
     EXPECT_GE(tried, 6);
+    expectTextureActsAsConstant<ConductorMaterial>({multiscatter()}, number("roughness", kInsideNumber));
+    expectTextureActsAsConstant<DielectricMaterial>({multiscatter()}, number("roughness", kInsideNumber));
 }
 
 }  // namespace

@@ -57,6 +57,66 @@ TEST(Fresnel, ConductorHasItsClosedForms) {
                     << cosine << " " << eta << " " << k;
 }
 
+/// How far Schlick's approximation is from Fresnel's equations: from the lowest to the highest error over all cosines.
+template <class Approximate, class Exact>
+void expectErrors(Approximate&& approximate, Exact&& exact, double lowest, double highest) {
+    double low = 1, high = -1;
+    for (int i = 1; i <= 4000; ++i) {
+        const float cosine = float(i) / 4000;
+        const double error = double(approximate(cosine)) - exact(cosine);
+        low = std::min(low, error);
+        high = std::max(high, error);
+    }
+    EXPECT_NEAR(low, lowest, 2e-4);
+    EXPECT_NEAR(high, highest, 2e-4);
+}
+
+TEST(Schlick, ErrsOnGlassByWhatIsDocumented) {
+    struct Row {
+        float eta;
+        double lowest, highest;
+    };
+    for (const auto& [eta, lowest, highest] : {Row{1.5f, -0.01963, 0.03569}, Row{1.33f, -0.00917, 0.05992},
+                                               Row{2.4f, -0.01403, 0.07404}, Row{1 / 1.5f, -0.01963, 0.03569}}) {
+        expectErrors([&, e = eta](float c) { return schlickDielectric(c, e).reflectance; },
+                     [&, e = eta](float c) { return dielectric(c, e); }, lowest, highest);
+        EXPECT_NEAR(schlickDielectric(1.f, eta).reflectance, dielectric(1, eta), 1e-6);
+        EXPECT_EQ(schlickDielectric(0.f, eta).reflectance, 1);
+        for (const float cosine : {0.9f, 0.5f})
+            EXPECT_EQ(schlickDielectric(cosine, eta).etaCosRefracted, dielectricFresnel(cosine, eta).etaCosRefracted);
+    }
+}
+
+TEST(Schlick, ReflectsTotallyWhereFresnelDoes) {
+    const float critical = std::sqrt(1 - 1 / 2.25f);
+    EXPECT_EQ(schlickDielectric(critical - 1e-4f, 1 / 1.5f).reflectance, 1);
+    EXPECT_LT(schlickDielectric(critical + 1e-3f, 1 / 1.5f).reflectance, 1);
+}
+
+TEST(Schlick, ErrsOnMetalsByWhatIsDocumented) {
+    const double copper[3][2] = {{0.1684, 3.6390}, {0.9765, 2.6211}, {1.2113, 2.3663}}, highest[3] = {0.01792, 0.03949, 0.03593};
+    for (int i = 0; i < 3; ++i) {
+        const float eta = float(copper[i][0]), k = float(copper[i][1]);
+        const MaterialsUnderTest<ConductorMaterial> metal(Settings{schlick(), color("eta", eta, eta, eta), color("k", k, k, k)});
+        const auto bsdf = metal.closure<float>(0u);
+        expectErrors([&](float c) { return bsdf.fresnel(c).g; }, [&](float c) { return conductor(c, eta, k); },
+                     i == 2 ? -0.00014 : 0, highest[i]);
+    }
+    const MaterialsUnderTest<ConductorMaterial> red(Settings{schlick(), color("reflectance", 0.8f, 0, 0)});
+    EXPECT_NEAR(red.closure<float>(0u).fresnel(0.5f).r, 0.8 + 0.2 / 32, 1e-6);
+}
+
+TEST(Schlick, IsOneOfTwoWords) {
+    MaterialTables tables;
+    PlainMaterialInput input({Setting{"string", "fresnel", {}, "shlick"}}, tables);
+    try {
+        ConductorMaterial::make(input);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("did you mean 'schlick'?"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Conductor, DefaultIsCopper) {
     const MaterialsUnderTest<ConductorMaterial> copper(Settings{});
     const Spectrum<float> albedo = lane(copper.wide().albedo({F(0.f), F(0.f), F(1.f)}), 0);

@@ -5,6 +5,16 @@
 
 namespace penumbra {
 
+/// True where the uniform number u falls below p; the part of the unit interval that it fell into is then stretched to a whole
+/// one, so that u can decide something else. `u` stays below 1.
+template <class F>
+Mask<F> takeBelow(F p, F& u) {
+    const Mask<F> below = u < p;
+    const F low = select(below, F(0.f), p), length = select(below, p, F(1.f) - p);
+    u = min((u - low) / max(length, F(1e-20f)), F(kOneMinusEpsilon));
+    return below;
+}
+
 /// Uniform on the unit disk, by the concentric map (Shirley & Chiu 1997, J. Graphics Tools 2(3)): area-preserving and
 /// continuous, so that stratification survives.
 template <class F>

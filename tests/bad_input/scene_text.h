@@ -275,6 +275,8 @@ inline std::vector<Case> meaningCases() {
         {"index of refraction NaN", material("\"dielectric\" \"float eta\" nan"), 65, "error: scene.pbrt:2:35: expected a"},
         {"albedo above 1", material("\"diffuse\" \"rgb reflectance\" [2 0 0]"), 65, "error: scene.pbrt:2:20: "},
         {"spectrum that falls back", material("\"diffuse\" \"spectrum reflectance\" [500 1 400 1]"), 65, "error: scene.pbrt:2:20: "},
+        {"Fresnel's name wrong", material("\"conductor\" \"string fresnel\" \"shlick\""), 65,
+         "error: scene.pbrt:2:1: material 'conductor': unknown fresnel 'shlick'; did you mean 'schlick'?"},
         {"exponent -1", material("\"phong\" \"float exponent\" -1"), 65, "error: scene.pbrt:2:1: material 'phong': exponent is -1"},
         {"exponent 1e30", material("\"blinn\" \"float exponent\" 1e30"), 65, "error: scene.pbrt:2:1: material 'blinn': exponent is 1"},
         {"radius 0", sphere("\"float radius\" 0"), 65, "error: scene.pbrt:2:16: radius is 0, outside the allowed range"},
