@@ -26,8 +26,9 @@ struct MarbleTexture {
     V evaluate(const TextureContext<F>& at, const TextureTables&) const {
         const Vec3<F> p = space.point(at) * F(scale);
         const F width = space.footprint(at) * F(std::fabs(scale));
-        const F angle = p.y + F(variation) * brownianNoise(p, width, octaves);
-        return color(F(0.5f) + F(0.5f) * sin(angle - F(kTwoPi) * floor(angle * F(kInvTwoPi))));
+        const F turns = (p.y + F(variation) * brownianNoise(p, width, octaves)) * F(kInvTwoPi);
+        const F withinTurn = clamp(turns - floor(turns), F(0.f), F(1.f));  // NaN becomes 0
+        return color(F(0.5f) + F(0.5f) * sin(F(kTwoPi) * withinTurn));
     }
 
     /// The spline's colour at t in [0, 1].
