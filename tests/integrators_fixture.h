@@ -120,8 +120,10 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indice
                "Translate 1.5 1.4 -.6\nMaterial \"diffusetransmission\"\nShape \"disk\" \"float radius\" .4\n"
                "Translate -2.6 0 0\nMaterial \"thindielectric\"\nShape \"disk\" \"float radius\" .4\n") +
            scoped(
-               "Translate 1.3 .2 -1.8\nMaterial \"phong\" \"texture kd\" \"check\"\nShape \"sphere\" \"float radius\" .2\n"
-               "Translate -2.7 0 0\nMaterial \"blinn\" \"rgb ks\" [ .6 .5 .2 ]\nShape \"sphere\" \"float radius\" .2\n") +
+               "Translate 1.3 .2 -1.8\nMaterial \"phong\" \"texture kd\" \"check\"\nShape \"sphere\" \"float radius\" "
+               ".2\n"
+               "Translate -2.7 0 0\nMaterial \"blinn\" \"rgb ks\" [ .6 .5 .2 ]\nShape \"sphere\" \"float radius\" "
+               ".2\n") +
            scoped(
                "Translate .6 .25 -1.6\nMaterial \"dielectric\" \"float roughness\" .2\n"
                "Shape \"sphere\" \"float radius\" .25\n") +
@@ -136,6 +138,15 @@ MakeNamedMaterial "hole" "string type" "interface"
 MakeNamedMaterial "worn" "string type" "mix" "string materials" [ "paint" "metal" ] "texture amount" "rough"
 Material "mix" "string materials" [ "worn" "hole" ] "float amount" .3
 )" + scoped("Translate -1.8 .3 -1\nShape \"sphere\" \"float radius\" .3\n") +
+           scoped(
+               "Translate -.9 .1 -1.4\nMaterial \"coateddiffuse\"\n"
+               "Shape \"curve\" \"float width\" .06 \"point3 P\" [ 0 0 0  .3 .5 .2  .6 -.2 .3  .9 .4 .1 ]\n"
+               "Shape \"curve\" \"string type\" \"cylinder\" \"string basis\" \"bspline\" \"float width1\" .02 \"float "
+               "width0\" "
+               ".08 \"point3 P\" [ 0 0 0  .2 .8 .1  .5 .2 .2  .9 .9 .1  1.1 .3 0  1.5 .6 0 ]\n"
+               "Scale 1 .7 1\nShape \"curve\" \"string type\" \"ribbon\" \"normal N\" [ 0 .3 -1  1 0 -1 ] \"float "
+               "width\" .1 "
+               "\"point3 P\" [ 0 .6 0  .2 1 .2  .5 .8 .3  .8 1.2 .1 ]\n") +
            R"(
 MakeNamedMedium "ink" "string type" "homogeneous" "rgb sigma_a" [ .5 1.5 2.5 ] "rgb sigma_s" [ 0 0 0 ]
 AttributeBegin
@@ -144,8 +155,12 @@ AttributeBegin
   Translate 2 .5 .6
   Shape "sphere" "float radius" .4
 AttributeEnd
-)" + scoped("Material \"diffuse\"\nAttribute \"shape\" \"texture alpha\" \"rough\"\nTranslate .8 1.6 -.5\nShape \"disk\" \"float radius\" .3\n"
-                  "Translate -1.4 0 0\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" .15\n") + R"(
+)" +
+           scoped(
+               "Material \"diffuse\"\nAttribute \"shape\" \"texture alpha\" \"rough\"\nTranslate .8 1.6 -.5\nShape "
+               "\"disk\" \"float radius\" .3\n"
+               "Translate -1.4 0 0\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" .15\n") +
+           R"(
 ObjectBegin "stone"
   Material "coateddiffuse" "texture reflectance" "marble" "string normalmap" "wood.pfm"
   Shape "cylinder" "float radius" .1 "float phimax" 250
@@ -180,6 +195,7 @@ Material "diffuse" "rgb reflectance" [ .6 .6 .6 ]
 Shape "trianglemesh" "point3 P" [ -4 0 -4  4 0 -4  4 0 4  -4 0 4 ] "integer indices" [ 0 2 1 0 3 2 ]
 ObjectBegin "wheel"
   Material "conductor" "float roughness" .1
+  Shape "curve" "string type" "cylinder" "float width" .1 "point3 P" [ -.6 0 0  -.2 .6 .3  .2 -.2 .3  .6 .8 0 ]
   Shape "trianglemesh" "point3 P" [ -.5 0 0  .5 0 0  .5 1 0  -.5 1 0 ] "integer indices" [ 0 1 2 0 2 3 ] "float alpha" .7
   Material "diffuse" "rgb reflectance" [ .7 .3 .2 ]
   AttributeBegin

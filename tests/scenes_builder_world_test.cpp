@@ -68,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
                         "ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Scale -1 1 1 ObjectInstance \"o\"", 1, 0},
         OrientationCase{"Patch", "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  4 0 0  0 4 0  4 4 0]", 1},
         OrientationCase{"Subdivision",
-                        "Shape \"loopsubdiv\" \"point3 P\" [0 0 0  4 0 0  0 4 0] \"integer indices\" [0 1 2]", -1}),
+                        "Shape \"loopsubdiv\" \"point3 P\" [-4 -4 0  8 -4 0  -4 8 0] \"integer indices\" [0 1 2]", -1}),
     [](const auto& info) { return info.param.name; });
 
 TEST(WorldBuilder, BakesMatricesIntoMeshes) {
@@ -200,11 +200,121 @@ TEST(WorldBuilder, LeavesOutWhatFloatsCannotHold) {
     EXPECT_FALSE(trace(built.scene, {0, 0, 10}, {0, 0, -1}));
 }
 
-TEST(WorldBuilder, WarnsOnceOfShapesThatAreNotThereYet) {
-    const BuiltScene built = buildWorld(kLight + "Shape \"curve\"\nShape \"curve\"\n");
-    ASSERT_EQ(built.warnings.all().size(), 1u);
-    EXPECT_EQ(built.warnings.all()[0], "test.pbrt:3:1: the shape 'curve' is not there yet and is left out");
-    EXPECT_TRUE(built.scene.geometry.shapes.empty());
+/// A straight strand along x from 0 to 3, seen from above as a band of the given parameters.
+std::string strand(const std::string& parameters = "\"float width\" 1") {
+    return "Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 2 0 0 3 0 0] " + parameters + "\n";
+}
+
+TEST(SceneCurves, AreBands) {
+    const BuiltScene built =
+        buildWorld(kLight + "Translate 0 0 2 Scale 2 2 2 " + strand("\"float width0\" 1 \"float width1\" 0.5"));
+    EXPECT_TRUE(built.warnings.all().empty());
+    const auto hit = trace(built.scene, {3, 0.2f, 10}, {0, 0, -1});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance, 8, 1e-5);
+    EXPECT_NEAR(hit->at.uv.x, 0.5, 1e-5);
+    // Half a width of 1.5 is .75 there, and v grows towards -z x +x = -y.
+    EXPECT_NEAR(hit->at.uv.y, 0.5 - 0.2 / 1.5, 1e-5);
+    EXPECT_NEAR(hit->at.frame.s.x, 1, 1e-6);
+    EXPECT_NEAR(hit->at.ng.z, -1, 1e-6) << "on the far side of the ray";
+    EXPECT_TRUE(trace(built.scene, {3, 0.74f, 10}, {0, 0, -1}));
+    EXPECT_FALSE(trace(built.scene, {3, 0.76f, 10}, {0, 0, -1}));
+    EXPECT_FALSE(trace(built.scene, {6.01f, 0, 10}, {0, 0, -1})) << "no caps";
+}
+
+TEST(SceneCurves, MirrorsTurnThem) {
+    for (const std::string& place : {std::string("Scale 1 -1 1 "), std::string("Scale 1 -1 1.2 ")}) {
+        const auto hit = trace(buildWorld(kLight + place + strand()).scene, {1.5f, 0.2f, 10}, {0, 0, -1});
+        ASSERT_TRUE(hit);
+        EXPECT_NEAR(hit->at.uv.y, 0.7, 1e-5) << place << "v as in object space";
+        EXPECT_NEAR(hit->at.ng.z, 1, 1e-6) << place;
+    }
+    const auto reversed =
+        trace(buildWorld(kLight + "ReverseOrientation " + strand()).scene, {1.5f, 0.2f, 10}, {0, 0, -1});
+    ASSERT_TRUE(reversed);
+    EXPECT_NEAR(reversed->at.ng.z, 1, 1e-6);
+}
+
+/// A scene may have a million strands: those that differ by nothing but their points are one shape.
+TEST(SceneCurves, JoinOthersLikeThem) {
+    std::string many;
+    for (int i = 0; i < 300; ++i)
+        many += "AttributeBegin Translate 0 " + std::to_string(2 * i) + " 0\n" + strand() + "AttributeEnd\n";
+    const BuiltScene built = buildWorld(kLight + "Material \"conductor\"\n" + many +
+                                        strand("\"string basis\" \"bspline\"") + "Material \"diffuse\"\n" + many);
+    const Geometry& g = built.scene.geometry;
+    ASSERT_EQ(g.shapes.size(), 3u);
+    EXPECT_EQ(g.shapes[0].count, 300u);
+    EXPECT_EQ(g.shapes[2].first, 301u);
+    const auto hit = trace(built.scene, {1.5f, 100, 10}, {0, 0, -1});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->at.uv.x, 0.5, 1e-5);
+    EXPECT_FALSE(trace(built.scene, {1.5f, 99, 10}, {0, 0, -1}));
+}
+
+/// Under a matrix that is no similarity a curve keeps its own space: the width is scaled as the format has it.
+TEST(SceneCurves, KeepTheirSpaceUnderSkewedMatrices) {
+    const std::string skewed = "Scale 1 3 1 " + strand();
+    const BuiltScene built = buildWorld(kLight + "AttributeBegin " + skewed + skewed + "AttributeEnd " + strand());
+    EXPECT_EQ(built.scene.geometry.groups.size(), 3u) << "two matrices: 1 3 1, and 1 9 1";
+    EXPECT_EQ(built.scene.geometry.instances.size(), 2u);
+    EXPECT_TRUE(trace(built.scene, {1.5f, 4.4f, 10}, {0, 0, -1}));
+    EXPECT_FALSE(trace(built.scene, {1.5f, 4.6f, 10}, {0, 0, -1}));
+    const BuiltScene object =
+        buildWorld(kLight + "ObjectBegin \"o\" " + skewed + strand() +
+                   "ObjectEnd Translate 0 0 5 ObjectInstance \"o\" Translate 0 20 0 ObjectInstance \"o\"");
+    EXPECT_EQ(object.scene.geometry.groups.size(), 2u);
+    ASSERT_EQ(object.scene.geometry.instances.size(), 2u);
+    const auto hit = trace(object.scene, {1.5f, 21.4f, 10}, {0, 0, -1});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->distance, 5, 1e-5);
+    EXPECT_NEAR(hit->at.uv.y, 0.5 - 1.4 / 3, 1e-4);
+    EXPECT_FALSE(trace(object.scene, {1.5f, 21.6f, 10}, {0, 0, -1}));
+}
+
+TEST(SceneCurves, Move) {
+    const BuiltScene built =
+        buildWorld(kLight + "ActiveTransform EndTime Translate 0 4 0 ActiveTransform All " + strand());
+    EXPECT_TRUE(trace(built.scene, {1.5f, 2, 10}, {0, 0, -1}, 0.5f));
+    EXPECT_FALSE(trace(built.scene, {1.5f, 2, 10}, {0, 0, -1}, 0));
+}
+
+TEST(SceneCurves, HaveHoles) {
+    // Two thirds of the way along: 1 up to u = 0.5, then 0; and across, 1 up to v = 0.5.
+    for (const bool across : {false, true}) {
+        const std::string parameter =
+            across ? "\"float vscale\" 2 \"float uscale\" 1e-6" : "\"float uscale\" 2 \"float vscale\" 1e-6";
+        const BuiltScene built =
+            buildWorld(kLight + "Texture \"half\" \"float\" \"checkerboard\" \"float tex1\" 1 \"float tex2\" 0 " +
+                       parameter + "\n" + strand("\"float width\" 1 \"texture alpha\" \"half\""));
+        EXPECT_TRUE(trace(built.scene, {0.6f, 0.2f, 10}, {0, 0, -1})) << "u 0.2, v 0.3";
+        EXPECT_EQ(trace(built.scene, {2.4f, 0.2f, 10}, {0, 0, -1}).has_value(), across) << "u 0.8, v 0.3";
+        EXPECT_EQ(trace(built.scene, {0.6f, -0.2f, 10}, {0, 0, -1}).has_value(), !across) << "u 0.2, v 0.7";
+    }
+    const BuiltScene thin = buildWorld(kLight + strand("\"float width\" 1 \"float alpha\" 0.3"));
+    int met = 0;
+    for (int i = 0; i < 4000; ++i)
+        met += trace(thin.scene, {0.1f + 2.8f * float(i) / 4000, 0.1f, 10}, {0, 0, -1}).has_value();
+    EXPECT_NEAR(met, 1200, 110);  // 3.8 standard deviations
+}
+
+TEST(SceneCurves, DoNotShine) {
+    const BuiltScene built = buildWorld("AreaLightSource \"diffuse\" " + strand() + strand());
+    EXPECT_TRUE(built.scene.lights.empty());
+    EXPECT_TRUE(built.warnsOf("test.pbrt:2:27: shape 'curve': curves cannot be area lights; it does not shine"));
+}
+
+TEST(SceneCurves, RefuseWhatTheFormatDoes) {
+    const auto error = [](const std::string& parameters) { return errorOf("WorldBegin\n" + strand(parameters)); };
+    EXPECT_EQ(error("\"string basis\" \"bspine\"")
+                  .rfind("test.pbrt:2:52: unknown basis 'bspine' of a curve; did you mean 'bspline'?", 0),
+              0u)
+        << error("\"string basis\" \"bspine\"");
+    EXPECT_NE(error("\"string type\" \"tube\"").find("unknown type 'tube' of a curve"), std::string::npos);
+    EXPECT_NE(error("\"integer degree\" 4").find("degree is 4, outside the allowed range, 2 to 3"), std::string::npos);
+    EXPECT_NE(error("\"float width1\" -1").find("width1 is -1, outside the allowed range"), std::string::npos);
+    EXPECT_NE(error("\"integer degree\" 2").find("4 points make no curve of degree 2"), std::string::npos);
+    EXPECT_NE(error("\"string type\" \"ribbon\"").find("needs 2 normals \"N\", but has 0"), std::string::npos);
 }
 
 TEST(WorldBuilder, ReadsPlyMeshes) {

@@ -171,11 +171,18 @@ void onBounds(const RTCBoundsFunctionArguments* a) {
     b.upper_x = upper[0], b.upper_y = upper[1], b.upper_z = upper[2];
 }
 
-/// Called where a ray may meet a triangle of a mesh with holes; Embree has put the distance into the ray. More often than not
-/// one lane alone is valid.
-void onTriangle(const RTCFilterFunctionNArguments* a) {
+/// Called where a ray may meet a triangle or a piece of a curve with holes; Embree has put the distance into the ray.
+/// More often than not one lane alone is valid.
+template <bool kCurve>
+void onMasked(const RTCFilterFunctionNArguments* a) {
     const auto& shape = *static_cast<const MaskedShape*>(a->geometryUserPtr);
     const std::uint32_t instance = shape.instanceRow(a->context->instID[0]);
+    const auto meets = [&](const auto& ray, const auto& t, const auto& primitive, const auto& uv) {
+        if constexpr (kCurve)
+            return shape.mask.meetsCurve(ray, t, instance, primitive, uv);
+        else
+            return shape.mask.meetsTriangle(ray, t, instance, primitive, uv);
+    };
     if (a->N == 8) {
         const Mask8 valid = loadValid(a->valid);
         if (std::popcount(bits(valid)) > 1) {
@@ -183,8 +190,8 @@ void onTriangle(const RTCFilterFunctionNArguments* a) {
             const auto& hit = *reinterpret_cast<const HitPacket*>(a->hit);
             const Lanes8f zero(0.f);
             const Vec2<Lanes8f> at = {select(valid, load<Lanes8f>(hit.u), zero), select(valid, load<Lanes8f>(hit.v), zero)};
-            const Lanes8u triangle = select(valid, load<Lanes8f>(hit.primitive), Lanes8u(0u));
-            const Mask8 met = valid & shape.mask.meetsTriangle(rays.ray, rays.far, instance, triangle, at);
+            const Lanes8u primitive = select(valid, load<Lanes8f>(hit.primitive), Lanes8u(0u));
+            const Mask8 met = valid & meets(rays.ray, rays.far, primitive, at);
             _mm256_storeu_si256(reinterpret_cast<__m256i*>(a->valid), __m256i(met.v));
             return;
         }
@@ -193,8 +200,8 @@ void onTriangle(const RTCFilterFunctionNArguments* a) {
         if (!a->valid[i]) continue;
         const TracedRays<float> r = rayOf(a->ray, a->N, i);
         const Vec2<float> at = {RTCHitN_u(a->hit, a->N, i), RTCHitN_v(a->hit, a->N, i)};
-        const std::uint32_t triangle = RTCHitN_primID(a->hit, a->N, i);
-        a->valid[i] = shape.mask.meetsTriangle(r.ray, r.far, instance, triangle, at) ? -1 : 0;
+        const std::uint32_t primitive = RTCHitN_primID(a->hit, a->N, i);
+        a->valid[i] = meets(r.ray, r.far, primitive, at) ? -1 : 0;
     }
 }
 
@@ -231,12 +238,25 @@ struct Accelerator::State {
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, g.positions.data(), 0, 12, g.positions.size() / 3);
         rtcSetSharedGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, g.indices.data(), std::size_t(shape.first) * 12, 12,
                                    shape.count);
-        if (mask) {
-            rtcSetGeometryUserData(mesh, mask);
-            rtcSetGeometryIntersectFilterFunction(mesh, onTriangle);
-            rtcSetGeometryOccludedFilterFunction(mesh, onTriangle);
-        }
+        if (mask) setFilter<false>(mesh, mask);
         attach(scene, mesh, id);
+    }
+    void attachCurves(RTCScene scene, const Geometry& g, const ShapeRecord& shape, MaskedShape* mask, unsigned id) {
+        const bool ribbon = shape.flags & kShapeCurveRibbon, spline = shape.flags & kShapeCurveSpline;
+        RTCGeometry curves = rtcNewGeometry(device, ribbon   ? RTC_GEOMETRY_TYPE_NORMAL_ORIENTED_BEZIER_CURVE
+                                                    : spline ? RTC_GEOMETRY_TYPE_FLAT_BSPLINE_CURVE
+                                                             : RTC_GEOMETRY_TYPE_FLAT_BEZIER_CURVE);
+        rtcSetSharedGeometryBuffer(curves, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, g.curveVertices.data(), 0, 16,
+                                   g.curveVertices.size() / 4);
+        rtcSetSharedGeometryBuffer(curves, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, g.curveIndices.data(),
+                                   std::size_t(shape.first) * 4, 4, shape.count);
+        // Control points behind the last ribbon have no normals; nor does a ribbon's index lead there.
+        if (ribbon)
+            rtcSetSharedGeometryBuffer(curves, RTC_BUFFER_TYPE_NORMAL, 0, RTC_FORMAT_FLOAT3, g.curveNormals.data(), 0,
+                                       12, g.curveNormals.size() / 3);
+        rtcSetGeometryTessellationRate(curves, kCurveQuads);
+        if (mask) setFilter<true>(curves, mask);
+        attach(scene, curves, id);
     }
     void attachQuadric(RTCScene scene, const Geometry& g, const ShapeRecord& shape, MaskedShape* mask, unsigned id) {
         RTCGeometry user = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
@@ -265,6 +285,8 @@ struct Accelerator::State {
             if (shape.count == 0 || shape.flags & kShapeInvisible) continue;
             MaskedShape* mask = shape.isMasked() ? addMask(g, range.firstShape + i, textures) : nullptr;
             if (shape.kind == ShapeKind::Mesh) attachMesh(scene, g, shape, mask, i);
+            else if (shape.kind == ShapeKind::Curves)
+                attachCurves(scene, g, shape, mask, i);
             else attachQuadric(scene, g, shape, mask, i);
         }
         if (group == 0)
@@ -275,6 +297,12 @@ struct Accelerator::State {
     }
 
 private:
+    template <bool kCurve>
+    static void setFilter(RTCGeometry geometry, MaskedShape* mask) {
+        rtcSetGeometryUserData(geometry, mask);
+        rtcSetGeometryIntersectFilterFunction(geometry, onMasked<kCurve>);
+        rtcSetGeometryOccludedFilterFunction(geometry, onMasked<kCurve>);
+    }
     template <class Quadric>
     static void setQuadric(RTCGeometry user, void* data) {
         rtcSetGeometryUserData(user, data);

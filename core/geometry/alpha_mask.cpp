@@ -10,6 +10,7 @@ static_assert(kNoTexture == kNone);
 AlphaMask::AlphaMask(const Geometry& g, std::uint32_t row, const Textures* textures)
     : row_(row),
       textures_(textures ? &textures->tables() : nullptr),
+      curves_{g.curveVertices.data(), g.curveNormals.data(), g.curveIndices.data()},
       positions_(g.positions.data()),
       uvs_(g.uvs.data()),
       instances_(g.instances.data()),
@@ -18,9 +19,12 @@ AlphaMask::AlphaMask(const Geometry& g, std::uint32_t row, const Textures* textu
     constant_ = shape.alpha;
     texture_ = shape.alphaTexture;
     uvShift_ = shape.uvShift;
+    first_ = shape.first;
+    flags_ = shape.flags;
     isOneLight_ = shape.lightStride == 0;
     if (shape.kind == ShapeKind::Mesh) triangles_ = g.indices.data() + 3 * std::size_t(shape.first);
-    else quadric_ = &g.quadrics[shape.first];
+    else if (shape.kind != ShapeKind::Curves)
+        quadric_ = &g.quadrics[shape.first];
 }
 
 template <class F>
@@ -88,6 +92,15 @@ Mask<F> AlphaMask::meetsTriangle(const GroupRay<F>& ray, F t, std::uint32_t inst
 }
 
 template <class F>
+Mask<F> AlphaMask::meetsCurve(const GroupRay<F>& ray, F t, std::uint32_t instance, const UInt<F>& piece,
+                              const Vec2<F>& uv) const {
+    if (texture_ == kNone) return isThere(F(constant_), ray, instance, piece);
+    const CurvePoint<F> at = curvePoint<F>(curves_, UInt<F>(first_) + piece, piece, UInt<F>(flags_), uv.x, uv.y,
+                                           ray.origin + ray.direction * t, ray.direction);
+    return isThere(alpha(Point<F>{at.uv, at.p, at.normal}, instance, ray.time), ray, instance, piece);
+}
+
+template <class F>
 Mask<F> AlphaMask::meetsQuadric(const GroupRay<F>& ray, F t, std::uint32_t instance, bool farSide) const {
     const UInt<F> part(farSide ? 1u : 0u);
     if (texture_ == kNone) return isThere(F(constant_), ray, instance, part);
@@ -119,6 +132,10 @@ template bool AlphaMask::meetsTriangle<float>(const GroupRay<float>&, float, std
                                               const Vec2<float>&) const;
 template Mask8 AlphaMask::meetsTriangle<Lanes8f>(const GroupRay<Lanes8f>&, Lanes8f, std::uint32_t, const Lanes8u&,
                                                  const Vec2<Lanes8f>&) const;
+template bool AlphaMask::meetsCurve<float>(const GroupRay<float>&, float, std::uint32_t, const std::uint32_t&,
+                                           const Vec2<float>&) const;
+template Mask8 AlphaMask::meetsCurve<Lanes8f>(const GroupRay<Lanes8f>&, Lanes8f, std::uint32_t, const Lanes8u&,
+                                              const Vec2<Lanes8f>&) const;
 template bool AlphaMask::meetsQuadric<float>(const GroupRay<float>&, float, std::uint32_t, bool) const;
 template Mask8 AlphaMask::meetsQuadric<Lanes8f>(const GroupRay<Lanes8f>&, Lanes8f, std::uint32_t, bool) const;
 template float AlphaMask::alphaAt<float>(const std::uint32_t&, const Vec3<float>&) const;

@@ -1,15 +1,16 @@
 // AlphaMask: the holes of a shape, where the scene gives it an alpha (a number or a float texture).
 //
-// A point of alpha a stops a ray with probability a, else the ray goes on as if nothing were there: every ray, shadow rays
-// included, so the expectation is a blend of the shape with what is behind it. The choice is no random draw but a hash of
-// the ray (origin, direction) and of what it meets (shape, triangle, instance, near or far side): Embree may offer a hit
-// in any order, more than once, and hits that are not the nearest, and must hear the same each time. Rays of different
-// samples and of different vertices of a path differ, so their choices are independent, and so are those of stacked sheets.
-// The choice is free of work where alpha is 0 or less (nothing there, NaN included) or 1 and more.
+// A point of alpha a stops a ray with probability a, else the ray goes on as if nothing were there: every ray, shadow
+// rays included, so the expectation is a blend of the shape with what is behind it. The choice is no random draw but a
+// hash of the ray (origin, direction) and of what it meets (shape, triangle or piece, instance, near or far side):
+// Embree may offer a hit in any order, more than once, and hits that are not the nearest, and must hear the same each
+// time. Rays of different samples and of different vertices of a path differ, so their choices are independent, and so
+// are those of stacked sheets. The choice is free of work where alpha is 0 or less (nothing there, NaN included) or 1
+// and more.
 //
 // Textures are looked up as points, without a footprint.
-// Thread safety: immutable. A mask refers to tables of the Geometry and of the Textures, which keep their place in memory when
-// their owners move; they must outlive it. Its functions give the same bits over lanes and one by one.
+// Thread safety: immutable. A mask refers to tables of the Geometry and of the Textures, which keep their place in
+// memory when their owners move; they must outlive it. Its functions give the same bits over lanes and one by one.
 #pragma once
 
 #include "core/geometry/surface_point.h"
@@ -33,6 +34,10 @@ public:
     /// `instance`: row of Geometry::instances, or kNone.
     template <class F>
     Mask<F> meetsTriangle(const GroupRay<F>& ray, F t, std::uint32_t instance, const UInt<F>& triangle, const Vec2<F>& barycentric) const;
+    /// Whether the ray meets the piece (of the curves) at distance t, where Embree's parameters are `uv`.
+    template <class F>
+    Mask<F> meetsCurve(const GroupRay<F>& ray, F t, std::uint32_t instance, const UInt<F>& piece,
+                       const Vec2<F>& uv) const;
     /// Whether the ray meets the quadric at distance t. `farSide`: it is the second root.
     template <class F>
     Mask<F> meetsQuadric(const GroupRay<F>& ray, F t, std::uint32_t instance, bool farSide) const;
@@ -69,11 +74,12 @@ private:
     Mask<F> isThere(F alpha, const GroupRay<F>& ray, std::uint32_t instance, const UInt<F>& part) const;
 
     float constant_;
-    std::uint32_t texture_, row_, uvShift_;
+    std::uint32_t texture_, row_, uvShift_, first_, flags_;
     bool isOneLight_;
     const TextureTables* textures_;
     const std::uint32_t* triangles_ = nullptr;   ///< of the mesh: three vertex numbers each
     const QuadricRecord* quadric_ = nullptr;
+    CurveTables curves_;
     const float *positions_, *uvs_;
     const InstanceRecord* instances_;
     const AffineRecord* matrices_;

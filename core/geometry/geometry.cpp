@@ -5,14 +5,22 @@
 namespace penumbra {
 namespace {
 
+/// Moves, unless room for several was made.
+template <class T>
+void appendTo(std::vector<T>& all, std::vector<T>&& part) {
+    if (all.capacity() == 0)
+        all = std::move(part);
+    else
+        all.insert(all.end(), part.begin(), part.end());
+    part = {};
+}
+
 /// Appends a per-vertex array of `width` floats; returns the shift from global vertex numbers to its rows.
 std::uint32_t appendAttribute(std::vector<float>& all, std::vector<float>&& mesh, std::size_t width, std::size_t firstVertex) {
     if (mesh.empty()) return kNone;
     if (all.size() / width + 1 == firstVertex) all.resize(all.size() + width);  // a shift of -1 would be kNone
     const std::size_t row = all.size() / width;
-    if (all.capacity() == 0) all = std::move(mesh);   // unless room for several meshes was made
-    else all.insert(all.end(), mesh.begin(), mesh.end());
-    mesh = {};
+    appendTo(all, std::move(mesh));
     return std::uint32_t(row) - std::uint32_t(firstVertex);
 }
 
@@ -37,12 +45,8 @@ ShapeRecord Geometry::addMesh(TriangleMesh&& mesh) {
     r.tangentShift = appendAttribute(tangents, std::move(mesh.tangents), 3, firstVertex);
     if (firstVertex)
         for (std::uint32_t& i : mesh.indices) i += std::uint32_t(firstVertex);
-    if (indices.capacity() == 0) indices = std::move(mesh.indices);
-    else indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
-    mesh.indices = {};
-    if (positions.capacity() == 0) positions = std::move(mesh.positions);
-    else positions.insert(positions.end(), mesh.positions.begin(), mesh.positions.end());
-    mesh.positions = {};
+    appendTo(indices, std::move(mesh.indices));
+    appendTo(positions, std::move(mesh.positions));
     return r;
 }
 
@@ -55,13 +59,35 @@ ShapeRecord Geometry::addQuadric(const QuadricRecord& q) {
     return r;
 }
 
+ShapeRecord Geometry::addCurves(CurveSet&& curves) {
+    const std::size_t firstVertex = curveVertices.size() / 4;
+    checkSize(curveVertices.size() + curves.vertices.size());
+    ShapeRecord r;
+    r.kind = ShapeKind::Curves;
+    r.first = std::uint32_t(curveIndices.size());
+    r.count = std::uint32_t(curves.indices.size());
+    r.flags = (curves.spline ? kShapeCurveSpline : 0u) | (curves.normals.empty() ? 0u : kShapeCurveRibbon) |
+              curves.level << kShapeCurveLevelShift;
+    if (!curves.normals.empty()) {
+        curveNormals.resize(3 * firstVertex);
+        curveNormals.insert(curveNormals.end(), curves.normals.begin(), curves.normals.end());
+    }
+    if (firstVertex)
+        for (std::uint32_t& i : curves.indices)
+            i += std::uint32_t(firstVertex);
+    appendTo(curveIndices, std::move(curves.indices));
+    appendTo(curveVertices, std::move(curves.vertices));
+    curves = {};
+    return r;
+}
+
 void Geometry::finish() {
     checkSize(shapes.size() * sizeof(ShapeRecord) / 4);
     checkSize(quadrics.size() * sizeof(QuadricRecord) / 4);
     checkSize(instances.size() * sizeof(InstanceRecord) / 4);
     checkSize(matrices.size() * sizeof(AffineRecord) / 4);
     // Row loads read 16 bytes from the start of any row.
-    for (std::vector<float>* v : {&positions, &normals, &uvs, &tangents}) {
+    for (std::vector<float>* v : {&positions, &normals, &uvs, &tangents, &curveNormals}) {
         v->reserve(v->size() + kSpareFloats);
         v->insert(v->end(), kSpareFloats, 0.f);
         v->resize(v->size() - kSpareFloats);
@@ -72,7 +98,9 @@ void Geometry::finish() {
 }
 
 std::size_t Geometry::memoryBytes() const {
-    return (positions.capacity() + normals.capacity() + uvs.capacity() + tangents.capacity() + indices.capacity()) * 4 +
+    return (positions.capacity() + normals.capacity() + uvs.capacity() + tangents.capacity() + indices.capacity() +
+            curveVertices.capacity() + curveNormals.capacity() + curveIndices.capacity()) *
+               4 +
            shapes.capacity() * sizeof(ShapeRecord) + quadrics.capacity() * sizeof(QuadricRecord) +
            instances.capacity() * sizeof(InstanceRecord) + matrices.capacity() * sizeof(AffineRecord);
 }

@@ -1,8 +1,9 @@
 // How the point of a hit and its shading normal change with uv; for the few materials that ask, and therefore apart
 // from surfacePoint().
 //
-// Where a shape has no usable uv (a triangle whose uv are on a line, the pole of a sphere), dp/du and dp/dv are the axes
-// of the shading frame or zero, and the normal does not change.
+// Where a shape has no usable uv (a triangle whose uv are on a line, the pole of a sphere), dp/du and dp/dv are the
+// axes of the shading frame or zero, and the normal does not change. So it is on curves, whose surface depends on the
+// ray.
 #pragma once
 
 #include "core/geometry/surface_point.h"
@@ -83,17 +84,18 @@ SurfaceDerivatives<F> surfaceDerivatives(const Geometry& g, const Hit<F>& hit, c
         inGroup = select(instanced, place.preimage(at.p), at.p);
     }
     const Mask<F> isMesh = at.shape.kind == UInt<F>(std::uint32_t(ShapeKind::Mesh));
+    const Mask<F> isCurve = at.shape.kind == UInt<F>(std::uint32_t(ShapeKind::Curves));
+    const Mask<F> isQuadric = !(isMesh | isCurve);
     LocalDerivatives<F> d;
-    if (any(isMesh)) d = meshInGroup(g, at.shape, hit, isMesh);
-    if (!all(isMesh)) {
-        const LocalDerivatives<F> q = quadricInGroup(g, at.shape, !isMesh, inGroup);
-        if (none(isMesh)) {
-            d = q;
-        } else {
-            d = {select(isMesh, d.dpdu, q.dpdu), select(isMesh, d.dpdv, q.dpdv), select(isMesh, d.n, q.n),
-                 select(isMesh, d.dndu, q.dndu), select(isMesh, d.dndv, q.dndv), select(isMesh, d.usable, q.usable)};
-        }
-    }
+    d.usable = Mask<F>(false);
+    d.dpdu = d.dpdv = d.dndu = d.dndv = {F(0.f), F(0.f), F(0.f)};
+    d.n = at.frame.n;
+    const auto add = [&](const Mask<F>& m, const LocalDerivatives<F>& of) {
+        d = {select(m, of.dpdu, d.dpdu), select(m, of.dpdv, d.dpdv), select(m, of.n, d.n),
+             select(m, of.dndu, d.dndu), select(m, of.dndv, d.dndv), select(m, of.usable, d.usable)};
+    };
+    if (any(isMesh)) add(isMesh, meshInGroup(g, at.shape, hit, isMesh));
+    if (any(isQuadric)) add(isQuadric, quadricInGroup(g, at.shape, isQuadric, inGroup));
     if (any(instanced)) {
         d.dpdu = select(instanced, place.vector(d.dpdu), d.dpdu);
         d.dpdv = select(instanced, place.vector(d.dpdv), d.dpdv);

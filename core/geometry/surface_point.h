@@ -6,6 +6,7 @@
 // are moved inwards by about as much); rays leave from offsetOrigin(), which is beyond that bound.
 #pragma once
 
+#include "core/geometry/curves.h"
 #include "core/geometry/geometry.h"
 #include "core/geometry/quadrics.h"
 
@@ -13,7 +14,8 @@ namespace penumbra {
 
 template <class F>
 struct Hit {
-    UInt<F> shape, primitive, instance;   ///< row of Geometry::shapes (see shapeOf), triangle of the mesh, row of instances or kNone
+    UInt<F> shape, primitive, instance;  ///< row of Geometry::shapes (see shapeOf), triangle of the mesh or piece of
+                                         ///< the curves, row of instances or kNone
     F u, v, t;
 };
 
@@ -100,7 +102,7 @@ Vec3<F> unitNormal(const Vec3<F>& v) {
     return normalize(select(usual, v, v * (F(1.f) / largest)));
 }
 
-/// What a mesh or a quadric gives in its own space.
+/// What a shape gives in its own space.
 template <class F>
 struct LocalSurface {
     Vec3<F> p, error, ng, ns, tangent;   ///< ng, ns not normalised
@@ -224,6 +226,49 @@ void quadricSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& 
         s.uvPerLength = F(1.f) / sqrt(max(areaPerUv(q.record, point.p) * length(s.ng), F(1e-30f)));
 }
 
+template <class F>
+LocalSurface<F> blend(const Mask<F>& m, const LocalSurface<F>& a, const LocalSurface<F>& b) {
+    return {select(m, a.p, b.p),
+            select(m, a.error, b.error),
+            select(m, a.ng, b.ng),
+            select(m, a.ns, b.ns),
+            select(m, a.tangent, b.tangent),
+            {select(m, a.uv.x, b.uv.x), select(m, a.uv.y, b.uv.y)},
+            select(m, a.uvPerLength, b.uvPerLength),
+            a.isFlat && b.isFlat};
+}
+
+template <class F>
+void curveSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit,
+                  const Mask<F>& isCurve, const Vec3<F>& met, const Vec3<F>& direction) {
+    const UInt<F> piece = select(isCurve, shape.first + hit.primitive, UInt<F>(0u));
+    const UInt<F> flags = select(isCurve, shape.flags, UInt<F>(0u));
+    const CurveTables tables{g.curveVertices.data(), g.curveNormals.data(), g.curveIndices.data()};
+    const CurvePoint<F> point = curvePoint(tables, piece, hit.primitive, flags, hit.u, hit.v, met, direction);
+    s.p = point.p;
+    s.error = point.error;
+    s.ng = flipSign(shape.has(kShapeFlipNormal), point.normal);
+    s.ns = s.ng;
+    s.isFlat = true;
+    s.tangent = point.tangent;
+    s.uv = point.uv;
+    s.uvPerLength = point.uvPerLength;
+}
+
+/// Of lanes that hold no mesh. Where both kinds are there, lanes are computed twice.
+template <class F>
+void otherSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit,
+                  const Mask<F>& isMesh, const Vec3<F>& met, const Vec3<F>& direction) {
+    const Mask<F> isCurve = shape.kind == UInt<F>(std::uint32_t(ShapeKind::Curves));
+    const Mask<F> isQuadric = !(isMesh | isCurve);
+    if (none(isCurve)) return quadricSurface(s, g, shape, isQuadric, met);
+    curveSurface(s, g, shape, hit, isCurve, met, direction);
+    if (none(isQuadric)) return;
+    LocalSurface<F> q;
+    quadricSurface(q, g, shape, isQuadric, met);
+    s = blend(isCurve, s, q);
+}
+
 }  // namespace detail
 
 /// `origin`, `direction`, `time` are those of the ray (world space). Every lane must hold a hit.
@@ -242,21 +287,17 @@ SurfacePoint<F> surfacePoint(const Geometry& g, const Hit<F>& hit, const Vec3<F>
     LocalSurface<F> s;
     if (any(isMesh)) meshSurface(s, g, shape, hit, isMesh, place, instanced);
     if (!all(isMesh)) {
-        Vec3<F> met = origin + direction * hit.t;
-        if (any(instanced)) met = select(instanced, place.preimage(met), met);   // into the space of the group
+        Vec3<F> met = origin + direction * hit.t, along = direction;
+        if (any(instanced)) {  // into the space of the group
+            met = select(instanced, place.preimage(met), met);
+            along = select(instanced, place.vectorPreimage(direction), direction);
+        }
         if (none(isMesh)) {
-            quadricSurface(s, g, shape, !isMesh, met);
+            otherSurface(s, g, shape, hit, isMesh, met, along);
         } else {
-            LocalSurface<F> q;
-            quadricSurface(q, g, shape, !isMesh, met);
-            s.p = select(isMesh, s.p, q.p);
-            s.error = select(isMesh, s.error, q.error);
-            s.ng = select(isMesh, s.ng, q.ng);
-            s.ns = select(isMesh, s.ns, q.ns);
-            s.tangent = select(isMesh, s.tangent, q.tangent);
-            s.uv = {select(isMesh, s.uv.x, q.uv.x), select(isMesh, s.uv.y, q.uv.y)};
-            s.uvPerLength = select(isMesh, s.uvPerLength, q.uvPerLength);
-            s.isFlat = s.isFlat & q.isFlat;
+            LocalSurface<F> other;
+            otherSurface(other, g, shape, hit, isMesh, met, along);
+            s = blend(isMesh, s, other);
         }
     }
     if (any(instanced)) {

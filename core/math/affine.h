@@ -37,9 +37,10 @@ struct Affine {
         return flipSign(c.determinant < F(0.f), c.x * n.x + c.y * n.y + c.z * n.z);
     }
     /// The point that point() takes to q (Cramer's rule). REQUIRES: not singular.
-    Vec3<F> preimage(const Vec3<F>& q) const {
+    Vec3<F> preimage(const Vec3<F>& q) const { return vectorPreimage(q - origin); }
+    /// The vector that vector() takes to r. REQUIRES: not singular.
+    Vec3<F> vectorPreimage(const Vec3<F>& r) const {
         const Cofactors<F> c = cofactors();
-        const Vec3<F> r = q - origin;
         const F inverse = F(1.f) / c.determinant;
         return {dot(r, c.x) * inverse, dot(r, c.y) * inverse, dot(r, c.z) * inverse};
     }

@@ -170,6 +170,23 @@ void addInvisibleGlass(std::vector<AnalyticScene>& scenes) {
                       .exact = true});
 }
 
+/// White fibres under a white sky lose nothing, however often light passes between them.
+void addWhiteCurves(std::vector<AnalyticScene>& scenes) {
+    const std::string points =
+        " \"float width0\" [ .3 ] \"float width1\" [ .1 ] \"point3 P\" [ -1 0 -.6  -.4 .9 -.2  .4 -.9 .2  1 0 .6 ]\n";
+    std::string fibres;
+    for (const char* type : {R"("flat")", R"("cylinder")", R"("ribbon" "normal N" [ 0 -.4 1  .5 -1 .2 ])"})
+        for (const int turn : {0, 35, 70})
+            fibres += scoped(fmt::format("Rotate {} 1 2 3\nTranslate 0 0 .2\nShape \"curve\" \"string type\" ", turn) +
+                             type + points);
+    scenes.push_back(
+        exactly({.id = "A10 fibres",
+                 .claim = "white curves of every type under a sky of radiance 1: invisible",
+                 .text = sceneText({.camera = orthographicView({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, 1), .maxDepth = 200},
+                                   constantSky(1) + diffuse(1) + fibres),
+                 .expected = grey(1)}));
+}
+
 }  // namespace
 
 std::vector<AnalyticScene> analyticCavities() {
@@ -179,6 +196,7 @@ std::vector<AnalyticScene> analyticCavities() {
     addOpenFurnaces(scenes);
     addIntegratingSpheres(scenes);
     addInvisibleGlass(scenes);
+    addWhiteCurves(scenes);
     return scenes;
 }
 

@@ -1,25 +1,13 @@
 #include "scenes/builder/shape_meshes.h"
 
 namespace penumbra::builder {
-namespace {
-
-template <class List>
-List take(ParameterSet& parameters, const char* type, const char* name) {
-    const Parameter* found = parameters.find(type, name);
-    if (!found) return {};
-    for (Parameter& p : parameters.all())
-        if (&p == found) return std::move(std::get<List>(p.values));
-    return {};
-}
-
-}  // namespace
 
 MeshArrays takeMeshArrays(ParameterSet& p) {
     using Floats = std::vector<float>;
     using Integers = std::vector<std::int32_t>;
-    return {take<Floats>(p, "point3", "P"),          take<Floats>(p, "normal", "N"),
-            take<Floats>(p, "vector3", "S"),         take<Floats>(p, "point2", "uv"),
-            take<Integers>(p, "integer", "indices"), take<Integers>(p, "integer", "faceIndices")};
+    return {takeList<Floats>(p, "point3", "P"),          takeList<Floats>(p, "normal", "N"),
+            takeList<Floats>(p, "vector3", "S"),         takeList<Floats>(p, "point2", "uv"),
+            takeList<Integers>(p, "integer", "indices"), takeList<Integers>(p, "integer", "faceIndices")};
 }
 
 TriangleMesh meshFromPatches(MeshArrays arrays, const std::string& where, Warnings& warnings) {

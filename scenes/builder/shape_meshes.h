@@ -8,6 +8,16 @@
 
 namespace penumbra::builder {
 
+/// Moves a list of values out of a directive's parameters; empty where it is absent.
+template <class List>
+List takeList(ParameterSet& parameters, const char* type, const char* name) {
+    const Parameter* found = parameters.find(type, name);
+    if (!found) return {};
+    for (Parameter& p : parameters.all())
+        if (&p == found) return std::move(std::get<List>(p.values));
+    return {};
+}
+
 /// Moves the arrays of a mesh out of its directive's parameters.
 MeshArrays takeMeshArrays(ParameterSet& parameters);
 

@@ -1,6 +1,9 @@
 #include "scenes/builder/shapes.h"
 
+#include "scenes/builder/shape_curves.h"
 #include "scenes/builder/shape_meshes.h"
+
+#include "core/geometry/subdivision.h"
 
 #include <fmt/format.h>
 
@@ -23,7 +26,7 @@ bool isQuadric(const ShapeEntity& shape) {
 /// Whether the geometric normal is the other one than the shape itself would have: its own orientation, and a mirrored
 /// object, which keeps the side that it had.
 bool flipsNormal(const ShapeEntity& shape, const ShapePlace& place) {
-    const bool mirrored = determinant3(place.groupFromObject) < 0;
+    const bool mirrored = (determinant3(place.groupFromObject) < 0) != place.mirrorsGroup;
     // The format's subdivision surfaces face against their control mesh.
     const bool reversedSurface = shape.type == "loopsubdiv";
     return (shape.reverseOrientation != mirrored) != reversedSurface;
@@ -48,7 +51,7 @@ bool isUsable(const AffineRecord& m) {
 }
 
 std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePlace& place) {
-    if (isLeftOut(shape)) return std::nullopt;
+    checkType(shape);
     const std::string owner = ownerName("shape", shape.type);
     BuiltShape out;
     out.groupFromObject = place.groupFromObject;
@@ -57,7 +60,9 @@ std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePl
     if (out.material.needsTangent) out.record.flags |= kShapeNeedsTangent;
     if (flipsNormal(shape, place)) out.record.flags |= kShapeFlipNormal;
     readAlpha(shape, out.record);
-    const bool isThere = isQuadric(shape) ? buildQuadric(shape, place, out) : buildMesh(shape, place, out);
+    const bool isThere = isQuadric(shape)        ? buildQuadric(shape, place, out)
+                         : shape.type == "curve" ? buildCurves(shape, place, out)
+                                                 : buildMesh(shape, place, out);
     readMedia(shape, out);
     readEmission(shape, place, out);
     context_.warnUnused(shape.parameters, owner);
@@ -65,16 +70,25 @@ std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePl
     return out;
 }
 
-/// True for shapes that nothing stands in for. Fails where nobody knows the type.
-bool ShapeBuilder::isLeftOut(const ShapeEntity& shape) {
+void ShapeBuilder::checkType(const ShapeEntity& shape) const {
     const std::vector<std::string>& known = knownShapes();
     if (std::find(known.begin(), known.end(), shape.type) == known.end())
         context_.fail(shape.where, "unknown shape " + quote(shape.type) + suggestion(shape.type, known));
-    const bool leftOut = shape.type == "curve";
-    if (leftOut)
-        context_.warnOnce("shape " + shape.type, shape.where,
-                          "the shape " + quote(shape.type) + " is not there yet and is left out");
-    return leftOut;
+}
+
+bool ShapeBuilder::buildCurves(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
+    const std::string owner = ownerName("shape", shape.type);
+    out.record.kind = ShapeKind::Curves;
+    out.record.flags |= kShapeNeedsTangent;  // their direction is what hair and brushed threads are about
+    const CurveArrays arrays = takeCurveArrays(shape.parameters, context_, shape.where);
+    if (arrays.type == CurveType::Cylinder) out.record.flags |= kShapeCurveCylinder;
+    if (determinant3(place.groupFromObject) < 0) out.record.flags |= kShapeCurveMirrored;
+    out.curves = curvesFromArrays(arrays, context_.position(shape.where) + ": " + owner, context_.warnings());
+    if (!(place.groupFromObject == Matrix4{})) transform(out.curves, place.groupFromObject);
+    if (out.curves.indices.empty())
+        context_.warn(shape.where,
+                      owner + ": nothing of it is large enough, or small enough, to be seen; it is left out");
+    return !out.curves.indices.empty();
 }
 
 bool ShapeBuilder::buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
@@ -105,10 +119,12 @@ TriangleMesh ShapeBuilder::readMesh(ShapeEntity& shape) {
         return meshFromPatches(takeMeshArrays(p), where, context_.warnings());
     }
     if (shape.type == "loopsubdiv") {
-        context_.warnOnce("shape loopsubdiv", shape.where,
-                          "the shape 'loopsubdiv' is not there yet; its control mesh stands in for it");
-        p.integer("levels", 3);
+        const int levels = context_.integer(p, "levels", 3, 0, 24);
         p.text("scheme", "");
+        MeshArrays control;
+        control.P = takeList<std::vector<float>>(p, "point3", "P");
+        control.indices = takeList<std::vector<std::int32_t>>(p, "integer", "indices");
+        return subdivideLoop(meshFromArrays(std::move(control), where, context_.warnings()), levels, where);
     }
     return meshFromArrays(takeMeshArrays(p), where, context_.warnings());
 }
@@ -197,6 +213,9 @@ void ShapeBuilder::readAlpha(const ShapeEntity& shape, ShapeRecord& record) {
 void ShapeBuilder::readEmission(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
     if (shape.areaLight < 0) return;
     const std::string owner = ownerName("shape", shape.type);
+    if (shape.type == "curve")
+        return context_.warnOnce("shining curve", shape.where,
+                                 owner + ": curves cannot be area lights; it does not shine");
     if (!place.mayShine)
         return context_.warnOnce(
             "moving light", shape.where,

@@ -1,4 +1,4 @@
-// Shapes: from a Shape directive to a mesh or quadric in the space of its group.
+// Shapes: from a Shape directive to a mesh, quadric or curves in the space of its group.
 #pragma once
 
 #include "scenes/builder/lights.h"
@@ -11,10 +11,11 @@ namespace penumbra::builder {
 
 /// A shape that is ready for the geometry's tables.
 struct BuiltShape {
-    ShapeRecord record;  ///< kind, flags and media; of quadrics and meshes alike
+    ShapeRecord record;  ///< kind, flags and media; the rest is filled in by the geometry's tables
     SceneMaterial material;
     TriangleMesh mesh;  ///< where record.kind is Mesh
     QuadricRecord quadric;
+    CurveSet curves;
     Matrix4 groupFromObject;
     std::optional<AreaEmission> emission;
 };
@@ -22,7 +23,8 @@ struct BuiltShape {
 /// Where a shape stands.
 struct ShapePlace {
     Matrix4 groupFromObject;
-    bool mayShine = true;  ///< it stands still in the world: neither moving nor in an object
+    bool mayShine = true;       ///< it stands still in the world: neither moving nor in an object
+    bool mirrorsGroup = false;  ///< the shape's own matrix is that of its group's instances, and mirrors
 };
 
 struct ShapeCounts {
@@ -42,7 +44,9 @@ public:
     const ShapeCounts& counts() const { return counts_; }
 
 private:
-    bool isLeftOut(const ShapeEntity& shape);
+    /// Fails where nobody knows the type.
+    void checkType(const ShapeEntity& shape) const;
+    bool buildCurves(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     bool buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     bool buildQuadric(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     TriangleMesh readMesh(ShapeEntity& shape);

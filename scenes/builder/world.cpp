@@ -1,6 +1,7 @@
 #include "scenes/builder/world.h"
 
-#include <map>
+#include <algorithm>
+#include <bit>
 
 namespace penumbra::builder {
 namespace {
@@ -22,17 +23,44 @@ std::map<std::string, std::size_t, std::less<>> objectNames(const SceneDescripti
     return names;
 }
 
+/// Whether nothing but their points tells the two sets of curves apart.
+bool areAlike(const BuiltShape& a, const BuiltShape& b) {
+    using Words = std::array<std::uint32_t, sizeof(ShapeRecord) / 4>;
+    return a.record.kind == ShapeKind::Curves && std::bit_cast<Words>(a.record) == std::bit_cast<Words>(b.record) &&
+           a.material.handle.tag == b.material.handle.tag && a.material.handle.row == b.material.handle.row &&
+           a.curves.spline == b.curves.spline && a.curves.level == b.curves.level &&
+           a.curves.normals.empty() == b.curves.normals.empty();
+}
+
+/// Curves join the last ones like them, if they are not too far back.
+void addShape(std::vector<BuiltShape>& shapes, BuiltShape&& built) {
+    constexpr std::ptrdiff_t kFarthest = 64;
+    if (built.record.kind == ShapeKind::Curves) {
+        const auto end = shapes.rbegin() + std::min(kFarthest, shapes.rend() - shapes.rbegin());
+        const auto like = std::find_if(shapes.rbegin(), end, [&](const BuiltShape& s) { return areAlike(s, built); });
+        if (like != end) return like->curves.append(built.curves);
+    }
+    shapes.push_back(std::move(built));
+}
+
+bool isSkewedCurve(const ShapeEntity& shape) {
+    return shape.type == "curve" && !isSimilarity(shape.objectToWorld.start);
+}
+
 }  // namespace
 
 void WorldBuilder::add(SceneDescription& description) {
+    SkewedGroups skewed;
     for (ShapeEntity& shape : description.shapes) {
         const TransformPair place = shape.objectToWorld;
         const SourcePosition where = shape.where;
         if (place.animated()) {
             const std::size_t group = addMovingGroup(std::move(shape));
             addInstance(group, motionMatrices(place.start, place.end), where);
+        } else if (isSkewedCurve(shape)) {
+            if (addSkewedCurve(std::move(shape), skewed)) addInstance(groups_.size() - 1, {place.start}, where);
         } else if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {place.start, true})) {
-            groups_[0].shapes.push_back(std::move(*built));
+            addShape(groups_[0].shapes, std::move(*built));
         }
     }
     description.shapes = {};
@@ -71,15 +99,30 @@ std::size_t WorldBuilder::addMovingGroup(ShapeEntity&& shape) {
     return addGroup(std::move(shapes));
 }
 
+/// The curve stays in its object space, in the group of those under its matrix. True where that is a new group, the
+/// last.
+bool WorldBuilder::addSkewedCurve(ShapeEntity&& shape, SkewedGroups& groups) {
+    const Matrix4 matrix = shape.objectToWorld.start;
+    std::optional<BuiltShape> built = shapes_.build(std::move(shape), {Matrix4{}, false, determinant3(matrix) < 0});
+    if (!built) return false;
+    const auto [group, isNew] = groups.try_emplace(std::bit_cast<std::array<double, 16>>(matrix.m), groups_.size());
+    if (isNew) groups_.emplace_back();
+    addShape(groups_[group->second].shapes, std::move(*built));
+    return isNew;
+}
+
 WorldBuilder::Object WorldBuilder::addObject(ObjectDefinition& definition) {
     Object object;
     std::vector<BuiltShape> still;
+    SkewedGroups skewed;
     for (ShapeEntity& shape : definition.shapes) {
         const TransformPair place = shape.objectToWorld;
         if (place.animated()) {
             if (const std::size_t group = addMovingGroup(std::move(shape))) object.moving.push_back({group, place});
+        } else if (isSkewedCurve(shape)) {
+            if (addSkewedCurve(std::move(shape), skewed)) object.moving.push_back({groups_.size() - 1, place});
         } else if (std::optional<BuiltShape> built = shapes_.build(std::move(shape), {place.start, false})) {
-            still.push_back(std::move(*built));
+            addShape(still, std::move(*built));
         }
     }
     object.still = addGroup(std::move(still));
@@ -132,7 +175,7 @@ void WorldBuilder::reserveTables() {
         for (const BuiltShape& shape : group.shapes) {
             ++shapes;
             if (shape.record.kind != ShapeKind::Mesh) {
-                ++quadrics;
+                quadrics += shape.record.kind != ShapeKind::Curves;
                 continue;
             }
             ++meshes;
@@ -158,8 +201,10 @@ void WorldBuilder::reserveTables() {
 void WorldBuilder::append(BuiltShape& shape) {
     Geometry& g = scene_.geometry;
     const bool isMesh = shape.record.kind == ShapeKind::Mesh;
-    ShapeRecord record = isMesh ? g.addMesh(std::move(shape.mesh)) : g.addQuadric(shape.quadric);
-    record.flags = shape.record.flags;
+    ShapeRecord record = isMesh                                   ? g.addMesh(std::move(shape.mesh))
+                         : shape.record.kind == ShapeKind::Curves ? g.addCurves(std::move(shape.curves))
+                                                                  : g.addQuadric(shape.quadric);
+    record.flags |= shape.record.flags;
     record.alpha = shape.record.alpha;
     record.alphaTexture = shape.record.alphaTexture;
     record.mediumInside = shape.record.mediumInside;

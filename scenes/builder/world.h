@@ -4,6 +4,9 @@
 // a moving shape, of the world or of an object, is a group of its own. Groups are placed by instances, one level deep,
 // so an instance of a moving shape of an object carries the product of both motions.
 //
+// Curves join others like them, for a scene may have a million of one strand each. They keep a round section in their
+// own space alone: where their matrix changes angles, all curves under it are a group, placed by an instance.
+//
 // Memory: shapes are gathered first, so that the tables are made once, at their size; a mesh is freed as it is
 // appended.
 //
@@ -11,6 +14,9 @@
 #pragma once
 
 #include "scenes/builder/shapes.h"
+
+#include <array>
+#include <map>
 
 namespace penumbra::builder {
 
@@ -29,11 +35,13 @@ private:
     struct Group {
         std::vector<BuiltShape> shapes;
     };
-    /// A moving shape of an object: its group and its own motion.
+    /// A moving shape of an object, or its skewed curves: their group and its own place.
     struct MovingPart {
         std::size_t group = 0;
         TransformPair motion;
     };
+    /// Groups by the matrix that places them, row by row.
+    using SkewedGroups = std::map<std::array<double, 16>, std::size_t>;
     struct Object {
         std::size_t still = 0;  ///< group; 0: none
         std::vector<MovingPart> moving;
@@ -41,6 +49,7 @@ private:
 
     std::size_t addGroup(std::vector<BuiltShape> shapes);
     std::size_t addMovingGroup(ShapeEntity&& shape);
+    bool addSkewedCurve(ShapeEntity&& shape, SkewedGroups& groups);
     Object addObject(ObjectDefinition& definition);
     void addInstance(std::size_t group, const std::vector<Matrix4>& motion, SourcePosition where);
     void reserveTables();
