@@ -31,12 +31,12 @@ void buildSettings(const SceneDescription& description, const BuildOptions& opti
     readOptions(description.options, context);
 }
 
-void buildWorld(SceneDescription& description, BuildContext& context, Scene& scene) {
+void buildWorld(SceneDescription& description, const BuildOptions& options, BuildContext& context, Scene& scene) {
     TextureLibrary textures(description, context, scene.textures);
     MaterialLibrary materials(description, context, textures, scene.materials);
     MediumLibrary media(description, context, scene.media);
     AreaLightLibrary areaLights(description, context);
-    ShapeBuilder shapes(context, textures, materials, media, areaLights);
+    ShapeBuilder shapes(context, textures, materials, media, areaLights, options.meshFacts);
     WorldBuilder world(context, shapes, scene);
     scene.cameraMedium = media.row(description.camera.medium, description.camera.where);
     world.add(description);
@@ -71,7 +71,7 @@ Scene build(SceneDescription& description, const BuildOptions& options, Warnings
     BuildContext context(description, filmColorSpace(description), warnings);
     Scene scene;
     buildSettings(description, options, context, scene);
-    buildWorld(description, context, scene);
+    buildWorld(description, options, context, scene);
     buildAccelerator(options, scene);
     buildLightSelection(options, scene);
     const bool needsLights = scene.integrator.name == "path" || scene.integrator.name == "direct";

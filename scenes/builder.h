@@ -22,6 +22,7 @@
 // side.
 #pragma once
 
+#include "scenes/mesh_facts.h"
 #include "scenes/scene.h"
 
 #include <array>
@@ -44,6 +45,8 @@ struct BuildOptions {
     std::optional<Strategy> strategy;
     std::optional<LightSelection> lightSelection;
     bool classicArea = false;  ///< --light-sampling area
+
+    std::vector<MeshFacts>* meshFacts = nullptr;  ///< where given, gets an entry for every mesh
     std::optional<float> clamp;  ///< limit on a sample's components (--clamp) for the film's own; infinity: none
 };
 

@@ -178,6 +178,27 @@ TEST(CommandLine, InfoSaysWhatIsInAScene) {
     EXPECT_NEAR(json.at("bounds").at("lower").at(1).get<double>(), -1, 1e-5);
 }
 
+TEST(CommandLine, InfoSaysWhetherMeshesAreSurfaces) {
+    const TemporaryFolder folder;
+    // A tetrahedron with a vertex twice over, as seams have it; two triangles that face opposite ways.
+    const std::string scene = folder.file("scene.pbrt", std::string(kSmallScene) + R"(
+Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0  0 0 1  0 0 1 ] "integer indices" [ 0 2 1  0 1 3  1 2 4  2 0 4 ]
+Shape "trianglemesh" "point3 P" [ 0 0 0  1 0 0  0 1 0  -1 0 0 ] "integer indices" [ 0 1 2 0 3 2 ]
+)");
+    const nlohmann::json meshes = nlohmann::json::parse(runProgram({"info", scene, "--json"}).out).at("meshes");
+    const nlohmann::json solid = meshes.at(meshes.size() - 2), sheet = meshes.at(meshes.size() - 1);
+    EXPECT_TRUE(solid.at("closed"));
+    EXPECT_TRUE(solid.at("oriented"));
+    EXPECT_EQ(solid.at("euler_characteristic"), 2);
+    EXPECT_FALSE(sheet.at("closed"));
+    EXPECT_TRUE(sheet.at("manifold"));
+    EXPECT_EQ(sheet.at("turned_edges"), 1);
+    EXPECT_EQ(sheet.at("borders"), 1);
+    const std::string text = runProgram({"info", scene}).out;
+    EXPECT_TRUE(contains(text, ": trianglemesh, 4 triangles, closed manifold, Euler characteristic 2\n")) << text;
+    EXPECT_TRUE(contains(text, "manifold with 1 border, 1 edge between triangles that face opposite ways, Euler")) << text;
+}
+
 TEST(CommandLine, WarningsStandBeforeErrorsAndStrictMakesThemErrors) {
     const TemporaryFolder folder;
     const std::string scene =

@@ -55,7 +55,32 @@ Json triple(const Vec3<float>& v) {
     return {v.x, v.y, v.z};
 }
 
-Json facts(const std::string& path, const Scene& scene, const SceneInputs& inputs, const Warnings& warnings) {
+Json meshList(const std::vector<MeshFacts>& meshes) {
+    Json list = Json::array();
+    for (const MeshFacts& mesh : meshes) {
+        const MeshTopology& t = mesh.topology;
+        list.push_back({{"where", mesh.where},
+                        {"type", mesh.type},
+                        {"triangles", t.triangles},
+                        {"vertices", t.vertices},
+                        {"edges", t.edges},
+                        {"manifold", t.isManifold()},
+                        {"closed", t.isClosed()},
+                        {"oriented", t.isOriented()},
+                        {"euler_characteristic", t.eulerCharacteristic()},
+                        {"components", t.components},
+                        {"borders", t.borders},
+                        {"border_edges", t.borderEdges},
+                        {"crowded_edges", t.crowdedEdges},
+                        {"pinched_vertices", t.pinchedVertices},
+                        {"turned_edges", t.turnedEdges},
+                        {"degenerate_triangles", t.degenerateTriangles}});
+    }
+    return list;
+}
+
+Json facts(const std::string& path, const Scene& scene, const std::vector<MeshFacts>& meshes, const SceneInputs& inputs,
+           const Warnings& warnings) {
     const SceneFacts& f = scene.facts;
     const CropWindow& crop = scene.film.crop;
     Json json = {
@@ -76,6 +101,7 @@ Json facts(const std::string& path, const Scene& scene, const SceneInputs& input
         {"dropped_triangles", f.droppedTriangles},
         {"instances", f.instances},
         {"motion", scene.hasMotion},
+        {"meshes", meshList(meshes)},
         {"materials", materialCounts(scene.materials)},
         {"lights", countsOf(LightTypes{}, [&]<class T>() { return scene.lights.rows<T>().size(); })},
         {"textures",
@@ -99,6 +125,27 @@ std::string countList(const Json& counts) {
     for (const auto& [name, count] : counts.items())
         text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count.get<std::size_t>(), name);
     return text.empty() ? "none" : text;
+}
+
+/// "3 borders".
+std::string counted(const Json& count, const char* one, const char* more) {
+    return fmt::format("{} {}", count.get<std::size_t>(), count == 1 ? one : more);
+}
+
+/// "closed manifold, 2 components, Euler characteristic 4".
+std::string surfaceText(const Json& mesh) {
+    std::string text = mesh["closed"] == true     ? "closed manifold"
+                       : mesh["manifold"] == true ? "manifold with " + counted(mesh["borders"], "border", "borders")
+                                                  : "no manifold";
+    const auto fault = [&](const char* name, const char* one, const char* more) {
+        if (mesh[name] != 0) text += ", " + counted(mesh[name], one, more);
+    };
+    fault("crowded_edges", "edge of more than two triangles", "edges of more than two triangles");
+    fault("pinched_vertices", "vertex where parts merely touch", "vertices where parts merely touch");
+    fault("turned_edges", "edge between triangles that face opposite ways", "edges between triangles that face opposite ways");
+    fault("degenerate_triangles", "degenerate triangle", "degenerate triangles");
+    if (mesh["components"] != 1) text += ", " + counted(mesh["components"], "component", "components");
+    return text + fmt::format(", Euler characteristic {}", mesh["euler_characteristic"].get<std::int64_t>());
 }
 
 std::string asText(const Json& j) {
@@ -126,6 +173,13 @@ std::string asText(const Json& j) {
                                  bytesText(number(j["geometry_bytes"])), j["motion"].get<bool>() ? ", moving" : ""));
     if (j["dropped_triangles"] != 0)
         line("", fmt::format("{} degenerate triangles were left out", j["dropped_triangles"].get<std::size_t>()));
+    constexpr std::size_t kMostMeshes = 20;
+    const Json& meshes = j["meshes"];
+    for (std::size_t i = 0; i < meshes.size() && i < kMostMeshes; ++i)
+        line(i == 0 ? "meshes" : "",
+             fmt::format("{}: {}, {} triangles, {}", meshes[i]["where"].get<std::string>(), meshes[i]["type"].get<std::string>(),
+                         countText(number(meshes[i]["triangles"])), surfaceText(meshes[i])));
+    if (meshes.size() > kMostMeshes) line("", fmt::format("and {} more, which --json lists", meshes.size() - kMostMeshes));
     line("bounds",
          j["bounds"].is_null() ? "nothing to see" : j["bounds"]["lower"].dump() + " to " + j["bounds"]["upper"].dump());
     line("materials", countList(j["materials"]));
@@ -146,8 +200,11 @@ void runInfo(const InfoRequest& request) {
     WarningPrinter printer(warnings, false);
     SceneDescription description = readScene(request.scene, warnings, request.root);
     const SceneInputs inputs = findSceneInputs(description);
-    const Scene scene = buildScene(std::move(description), {}, warnings);
-    const Json json = facts(request.scene, scene, inputs, warnings);
+    std::vector<MeshFacts> meshes;
+    BuildOptions options;
+    options.meshFacts = &meshes;
+    const Scene scene = buildScene(std::move(description), options, warnings);
+    const Json json = facts(request.scene, scene, meshes, inputs, warnings);
     printOut(request.json ? json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n" : asText(json));
 }
 

@@ -95,6 +95,9 @@ bool ShapeBuilder::buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltS
     out.record.kind = ShapeKind::Mesh;
     out.mesh = readMesh(shape);
     TriangleMesh& mesh = out.mesh;
+    if (meshFacts_)
+        meshFacts_->push_back({context_.position(shape.where), shape.type,
+                               topologyOf(weldedIndices(mesh.indices, mesh.positions), mesh.vertexCount())});
     mesh.faceIndices = {};
     if (!(out.record.flags & (kShapeNeedsUv | kShapeNeedsTangent))) mesh.uvs = {};
     if (!(out.record.flags & kShapeNeedsTangent)) mesh.tangents = {};

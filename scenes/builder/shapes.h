@@ -6,6 +6,7 @@
 #include "scenes/builder/media.h"
 
 #include "core/geometry/geometry.h"
+#include "scenes/mesh_facts.h"
 
 namespace penumbra::builder {
 
@@ -34,10 +35,15 @@ struct ShapeCounts {
 /// Thread safety: none; one instance belongs to one build.
 class ShapeBuilder {
 public:
-    /// All must outlive this object.
+    /// All must outlive this object. `meshFacts`: null, or what gets an entry for every mesh.
     ShapeBuilder(BuildContext& context, TextureLibrary& textures, MaterialLibrary& materials, MediumLibrary& media,
-                 AreaLightLibrary& lights)
-        : context_(context), textures_(textures), materials_(materials), media_(media), lights_(lights) {}
+                 AreaLightLibrary& lights, std::vector<MeshFacts>* meshFacts)
+        : context_(context),
+          textures_(textures),
+          materials_(materials),
+          media_(media),
+          lights_(lights),
+          meshFacts_(meshFacts) {}
 
     /// Takes the directive apart. Nothing where nothing of it can be seen.
     std::optional<BuiltShape> build(ShapeEntity&& shape, const ShapePlace& place);
@@ -64,6 +70,7 @@ private:
     MaterialLibrary& materials_;
     MediumLibrary& media_;
     AreaLightLibrary& lights_;
+    std::vector<MeshFacts>* meshFacts_;
     ShapeCounts counts_;
 };
 
