@@ -26,13 +26,13 @@ bool CylinderLight::make(const Matrix4& worldFromObject, double radius, double z
     return true;
 }
 
-std::optional<LightBounds> CylinderLight::bounds(const LightTables&) const {
+std::optional<LightBounds> CylinderLight::bounds(const LightTables& tables) const {
     // Each coordinate: a circle about the middle of the axis, moved along the axis to both sides.
     const auto reach = [](double x, double y, double z) { return std::sqrt(x * x + y * y) + 0.5 * std::abs(z); };
     const Vec3<double> middle = {center.x + 0.5 * toWorldZ.x, center.y + 0.5 * toWorldZ.y, center.z + 0.5 * toWorldZ.z};
     const Vec3<double> half = {reach(toWorldX.x, toWorldY.x, toWorldZ.x), reach(toWorldX.y, toWorldY.y, toWorldZ.y),
                                reach(toWorldX.z, toWorldY.z, toWorldZ.z)};
-    return LightBounds::ofRound(middle - half, middle + half, 0.25 * double(average(radiance)) * area);
+    return LightBounds::ofRound(middle - half, middle + half, 0.25 * double(meanRadiance(*this, tables)) * area);
 }
 
 }  // namespace penumbra

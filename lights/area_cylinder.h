@@ -17,17 +17,18 @@ struct CylinderLight : QuadricPlace {
     float phiMax;
     float area;  ///< in the world
     Spectrum<float> radiance;
-    std::uint32_t flags;  ///< kLightReversed: the outside (the side that emits) is towards the axis
+    std::uint32_t flags;        ///< kLightReversed: the outside (the side that emits) is towards the axis
+    std::uint32_t picture = 0;  ///< where kLightPictured
 
     /// The cylinder of `radius` about the z axis of object space from zMin to zMax, for angles up to phiMax. False
     /// where the matrix is singular or not finite; `light` is then untouched.
     static bool make(const Matrix4& worldFromObject, double radius, double zMin, double zMax, double phiMax,
                      const Spectrum<float>& radiance, std::uint32_t flags, CylinderLight& light);
 
-    float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
+    float power(const LightTables& tables) const { return diffusePower(*this, tables, area); }
 
     /// From afar about as bright as a sphere of its surface.
-    std::optional<LightBounds> bounds(const LightTables&) const;
+    std::optional<LightBounds> bounds(const LightTables& tables) const;
 
     template <class F>
     static LightSample<F> sample(const Records<F, CylinderLight>& light, const LightTables&, const Vec3<F>& p,
@@ -58,21 +59,22 @@ struct CylinderView {
 }  // namespace detail
 
 template <class F>
-LightSample<F> CylinderLight::sample(const Records<F, CylinderLight>& light, const LightTables&, const Vec3<F>& p,
-                                     const Vec2<F>& u) {
+LightSample<F> CylinderLight::sample(const Records<F, CylinderLight>& light, const LightTables& tables,
+                                     const Vec3<F>& p, const Vec2<F>& u) {
     F s, c;
     sinCos(light(&CylinderLight::phiMax) * u.x, s, c);
     const detail::CylinderView<F> view(light, p, {c, s, u.y});
-    return QuadricPlace::toWorld(light, view.lit, view.toPoint * (F(1.f) / view.distance), view.distance, view.pdf);
+    return QuadricPlace::toWorld(light, tables, p, view.lit, view.toPoint * (F(1.f) / view.distance), view.distance,
+                                 view.pdf);
 }
 
 template <class F>
-LightEval<F> CylinderLight::evaluate(const Records<F, CylinderLight>& light, const LightTables&,
+LightEval<F> CylinderLight::evaluate(const Records<F, CylinderLight>& light, const LightTables& tables,
                                      const LightHit<F>& hit) {
     const detail::CylinderView<F> view(light, hit.from,
                                        QuadricPlace::toObject(light, hit.p - light(&CylinderLight::center)));
     const F pdf = view.pdf * QuadricPlace::densityInWorld(light, hit.wi);
-    return lightEval(view.lit, light(&CylinderLight::radiance), pdf);
+    return lightEval(view.lit, emittedRadiance(light, tables, light(&CylinderLight::flags), hit.p), pdf);
 }
 
 }  // namespace penumbra

@@ -21,6 +21,7 @@ struct DiskLight {
     float inner, phiMax, area;
     Spectrum<float> radiance;
     std::uint32_t flags;
+    std::uint32_t picture = 0;  ///< where kLightPictured
 
     /// `radiusX`, `radiusY`: images of the disk's axes times its radius; `inner`: inner radius over radius, in [0, 1);
     /// phiMax in (0, 2 pi]; `normal` says which side emits.
@@ -28,13 +29,13 @@ struct DiskLight {
                           float inner, float phiMax, const Vec3<float>& normal, const Spectrum<float>& radiance,
                           std::uint32_t flags);
 
-    float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
+    float power(const LightTables& tables) const { return diffusePower(*this, tables, area); }
 
     /// Of the parallelogram round it.
-    std::optional<LightBounds> bounds(const LightTables&) const {
+    std::optional<LightBounds> bounds(const LightTables& tables) const {
         const Vec3<float> sum = radiusX + radiusY, difference = radiusX - radiusY;
-        return diffuseBounds({center + sum, center - sum, center + difference, center - difference}, normal,
-                             average(radiance), area, flags);
+        return diffuseBounds({center + sum, center - sum, center + difference, center - difference}, *this, tables,
+                             area);
     }
 
     template <class F>
@@ -63,7 +64,7 @@ Vec2<F> diskPoint(const Vec2<F>& u, F inner, F phiMax) {
 }  // namespace detail
 
 template <class F>
-LightSample<F> DiskLight::sample(const Records<F, DiskLight>& light, const LightTables&, const Vec3<F>& p,
+LightSample<F> DiskLight::sample(const Records<F, DiskLight>& light, const LightTables& tables, const Vec3<F>& p,
                                  const Vec2<F>& u) {
     const Vec2<F> q = detail::diskPoint(u, light(&DiskLight::inner), light(&DiskLight::phiMax));
     const Vec3<F> center = light(&DiskLight::center) - p;
@@ -72,15 +73,17 @@ LightSample<F> DiskLight::sample(const Records<F, DiskLight>& light, const Light
     const F pdf = distance * distance * distance / (abs(z) * light(&DiskLight::area));
     const UInt<F> flags = light(&DiskLight::flags);
     return lightSample(emitsTowards<F>(z, flags) & isFinite(pdf), d * (F(1.f) / distance), distance,
-                       light(&DiskLight::radiance), pdf, hasFlag<F>(flags, kLightUnmet));
+                       emittedRadiance(light, tables, flags, p + d), pdf, hasFlag<F>(flags, kLightUnmet));
 }
 
 template <class F>
-LightEval<F> DiskLight::evaluate(const Records<F, DiskLight>& light, const LightTables&, const LightHit<F>& hit) {
+LightEval<F> DiskLight::evaluate(const Records<F, DiskLight>& light, const LightTables& tables,
+                                 const LightHit<F>& hit) {
     const F z = dot(light(&DiskLight::center) - hit.from, light(&DiskLight::normal));
     const F distance = length(hit.p - hit.from);
     const F pdf = distance * distance * distance / (abs(z) * light(&DiskLight::area));
-    return lightEval(emitsTowards<F>(z, light(&DiskLight::flags)) & isFinite(pdf), light(&DiskLight::radiance), pdf);
+    const UInt<F> flags = light(&DiskLight::flags);
+    return lightEval(emitsTowards<F>(z, flags) & isFinite(pdf), emittedRadiance(light, tables, flags, hit.p), pdf);
 }
 
 }  // namespace penumbra

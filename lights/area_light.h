@@ -11,7 +11,7 @@
 // Both have the same expectation; the second varies more, without bound as the point nears the light.
 #pragma once
 
-#include "lights/light.h"
+#include "lights/emission_picture.h"
 
 namespace penumbra {
 
@@ -34,21 +34,44 @@ inline constexpr std::uint32_t kLightReversed = 2;
 inline constexpr std::uint32_t kLightUnmet = 4;
 /// The shape has holes, through which its far side can be seen.
 inline constexpr std::uint32_t kLightPierced = 8;
+/// Its radiance is multiplied by a picture: row `picture` of LightTables::pictures.
+inline constexpr std::uint32_t kLightPictured = 16;
 
 template <class F>
 Mask<F> hasFlag(UInt<F> flags, std::uint32_t flag) {
     return (flags & UInt<F>(flag)) != UInt<F>(0u);
 }
 
-/// Flux of a surface that emits the same radiance everywhere.
-inline float diffusePower(float radiance, float area, std::uint32_t flags) {
-    return kPi * radiance * area * ((flags & kLightTwoSided) ? 2.f : 1.f);
+/// The radiance of an area light, the mean over its surface and channels.
+template <class Light>
+float meanRadiance(const Light& light, const LightTables& tables) {
+    const float picture = light.flags & kLightPictured ? tables.pictures[light.picture].mean : 1.f;
+    return average(light.radiance) * picture;
+}
+
+/// Flux of a surface of that area.
+template <class Light>
+float diffusePower(const Light& light, const LightTables& tables, float area) {
+    return kPi * meanRadiance(light, tables) * area * ((light.flags & kLightTwoSided) ? 2.f : 1.f);
 }
 
 /// Of a flat surface with these corners.
-inline LightBounds diffuseBounds(std::initializer_list<Vec3<float>> corners, const Vec3<float>& normal, float radiance,
-                                 float area, std::uint32_t flags) {
-    return LightBounds::ofFlat(corners, normal, double(radiance) * area, flags & kLightTwoSided);
+template <class Light>
+LightBounds diffuseBounds(std::initializer_list<Vec3<float>> corners, const Light& light, const LightTables& tables,
+                          float area) {
+    return LightBounds::ofFlat(corners, light.normal, double(meanRadiance(light, tables)) * area,
+                               light.flags & kLightTwoSided);
+}
+
+/// The radiance that leaves the point p of the surface.
+template <class F, class Light>
+Spectrum<F> emittedRadiance(const Records<F, Light>& light, const LightTables& tables, const UInt<F>& flags,
+                            const Vec3<F>& p) {
+    const Spectrum<F> radiance = light(&Light::radiance);
+    const Mask<F> pictured = hasFlag<F>(flags, kLightPictured);
+    if (none(pictured)) return radiance;
+    const UInt<F> picture = select(pictured, light(&Light::picture), UInt<F>(0u));
+    return select(pictured, radiance * pictureAt(tables, picture, p), radiance);
 }
 
 /// Whether a flat light shines on a point. `z` is the light's offset from the point along the normal, negative in

@@ -33,17 +33,17 @@ struct RectangleLight {
     float width, height;  ///< along axisX, axisY
     Spectrum<float> radiance;
     std::uint32_t flags;
+    std::uint32_t picture = 0;  ///< where kLightPictured
 
     /// `edgeX` and `edgeY` leave the corner and make a right angle; `normal` says which side emits.
     static RectangleLight make(const Vec3<float>& corner, const Vec3<float>& edgeX, const Vec3<float>& edgeY,
                                const Vec3<float>& normal, const Spectrum<float>& radiance, std::uint32_t flags);
 
-    float power(const LightTables&) const { return diffusePower(average(radiance), width * height, flags); }
+    float power(const LightTables& tables) const { return diffusePower(*this, tables, width * height); }
 
-    std::optional<LightBounds> bounds(const LightTables&) const {
+    std::optional<LightBounds> bounds(const LightTables& tables) const {
         const Vec3<float> right = corner + axisX * width, up = axisY * height;
-        return diffuseBounds({corner, right, corner + up, right + up}, normal, average(radiance), width * height,
-                             flags);
+        return diffuseBounds({corner, right, corner + up, right + up}, *this, tables, width * height);
     }
 
     template <class F>
@@ -211,7 +211,7 @@ LightSample<F> RectangleLight::sample(const Records<F, RectangleLight>& light, c
     const Vec3<F> d = light(&RectangleLight::axisX) * q.x + light(&RectangleLight::axisY) * q.y +
                       light(&RectangleLight::normal) * view.z;
     return lightSample(emitsTowards<F>(view.z, flags) & isFinite(pdf), d * (F(1.f) / distance), distance,
-                       light(&RectangleLight::radiance), pdf, hasFlag<F>(flags, kLightUnmet));
+                       emittedRadiance(light, tables, flags, p + d), pdf, hasFlag<F>(flags, kLightUnmet));
 }
 
 template <class F>
@@ -223,8 +223,8 @@ LightEval<F> RectangleLight::evaluate(const Records<F, RectangleLight>& light, c
         const F half = view.halfSolidAngle();
         pdf = select(half >= F(0.5f * kSmallestSolidAngle), F(0.5f) / half, pdf);
     }
-    return lightEval(emitsTowards<F>(view.z, light(&RectangleLight::flags)) & isFinite(pdf),
-                     light(&RectangleLight::radiance), pdf);
+    const UInt<F> flags = light(&RectangleLight::flags);
+    return lightEval(emitsTowards<F>(view.z, flags) & isFinite(pdf), emittedRadiance(light, tables, flags, hit.p), pdf);
 }
 
 }  // namespace penumbra

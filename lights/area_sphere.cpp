@@ -41,12 +41,12 @@ bool SphereLight::make(const Matrix4& worldFromObject, double radius, double zMi
     return true;
 }
 
-std::optional<LightBounds> SphereLight::bounds(const LightTables&) const {
+std::optional<LightBounds> SphereLight::bounds(const LightTables& tables) const {
     const auto reach = [](double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); };
     const Vec3<double> middle = {center.x, center.y, center.z};
     const Vec3<double> half = {reach(toWorldX.x, toWorldY.x, toWorldZ.x), reach(toWorldX.y, toWorldY.y, toWorldZ.y),
                                reach(toWorldX.z, toWorldY.z, toWorldZ.z)};
-    return LightBounds::ofRound(middle - half, middle + half, 0.25 * double(average(radiance)) * area);
+    return LightBounds::ofRound(middle - half, middle + half, 0.25 * double(meanRadiance(*this, tables)) * area);
 }
 
 }  // namespace penumbra

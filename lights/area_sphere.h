@@ -22,18 +22,19 @@ struct SphereLight : QuadricPlace {
     float zMin, zMax, phiMax;  ///< of the unit sphere; -1, 1, 2 pi where it is whole
     float area;                ///< in the world
     Spectrum<float> radiance;
-    std::uint32_t flags;  ///< kLightReversed: the outside (the side that emits) is towards the centre
-    std::uint32_t whole;  ///< 1 or 0
+    std::uint32_t flags;        ///< kLightReversed: the outside (the side that emits) is towards the centre
+    std::uint32_t whole;        ///< 1 or 0
+    std::uint32_t picture = 0;  ///< where kLightPictured
 
     /// The sphere of `radius` about the origin of object space, cut to zMin <= z <= zMax (in its units) and angles up
     /// to phiMax. False where the matrix is singular or not finite; `light` is then untouched.
     static bool make(const Matrix4& worldFromObject, double radius, double zMin, double zMax, double phiMax,
                      const Spectrum<float>& radiance, std::uint32_t flags, SphereLight& light);
 
-    float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
+    float power(const LightTables& tables) const { return diffusePower(*this, tables, area); }
 
     /// Of the box round the whole ellipsoid, which from afar is a disk of a quarter of its surface.
-    std::optional<LightBounds> bounds(const LightTables&) const;
+    std::optional<LightBounds> bounds(const LightTables& tables) const;
 
     template <class F>
     static LightSample<F> sample(const Records<F, SphereLight>& light, const LightTables& tables, const Vec3<F>& p,
@@ -144,7 +145,7 @@ LightSample<F> SphereLight::sample(const Records<F, SphereLight>& light, const L
         pdf = select(view.byArea, view.pdfArea(light, q), pdf);
         valid = select(view.byArea, view.lit(q), valid);
     }
-    return QuadricPlace::toWorld(light, valid, direction, distance, pdf);
+    return QuadricPlace::toWorld(light, tables, p, valid, direction, distance, pdf);
 }
 
 template <class F>
@@ -154,7 +155,8 @@ LightEval<F> SphereLight::evaluate(const Records<F, SphereLight>& light, const L
     const Vec3<F> q = QuadricPlace::toObject(light, hit.p - light(&SphereLight::center));
     const F pdf =
         select(view.byArea, view.pdfArea(light, q), view.pdfDirection()) * QuadricPlace::densityInWorld(light, hit.wi);
-    return lightEval(view.lit(q) & isFinite(pdf), light(&SphereLight::radiance), pdf);
+    const Spectrum<F> L = emittedRadiance(light, tables, light(&SphereLight::flags), hit.p);
+    return lightEval(view.lit(q) & isFinite(pdf), L, pdf);
 }
 
 }  // namespace penumbra

@@ -28,15 +28,16 @@ struct TriangleLight {
     float area;
     Spectrum<float> radiance;
     std::uint32_t flags;
+    std::uint32_t picture = 0;  ///< where kLightPictured
 
     /// `normal` says which side emits; only its side of the triangle matters. REQUIRES: an area that is not 0.
     static TriangleLight make(const Vec3<float>& a, const Vec3<float>& b, const Vec3<float>& c,
                               const Vec3<float>& normal, const Spectrum<float>& radiance, std::uint32_t flags);
 
-    float power(const LightTables&) const { return diffusePower(average(radiance), area, flags); }
+    float power(const LightTables& tables) const { return diffusePower(*this, tables, area); }
 
-    std::optional<LightBounds> bounds(const LightTables&) const {
-        return diffuseBounds({corner, corner + edgeB, corner + edgeC}, normal, average(radiance), area, flags);
+    std::optional<LightBounds> bounds(const LightTables& tables) const {
+        return diffuseBounds({corner, corner + edgeB, corner + edgeC}, *this, tables, area);
     }
 
     template <class F>
@@ -133,8 +134,8 @@ LightSample<F> TriangleLight::sample(const Records<F, TriangleLight>& light, con
             pdf = select(spherical, F(0.5f) / half, pdf);
         }
     }
-    return lightSample(valid & isFinite(pdf), d * (F(1.f) / distance), distance, light(&TriangleLight::radiance), pdf,
-                       hasFlag<F>(flags, kLightUnmet));
+    return lightSample(valid & isFinite(pdf), d * (F(1.f) / distance), distance,
+                       emittedRadiance(light, tables, flags, p + d), pdf, hasFlag<F>(flags, kLightUnmet));
 }
 
 template <class F>
@@ -146,8 +147,8 @@ LightEval<F> TriangleLight::evaluate(const Records<F, TriangleLight>& light, con
         const F half = view.halfSolidAngle();
         pdf = select(half >= F(0.5f * kSmallestSolidAngle), F(0.5f) / half, pdf);
     }
-    return lightEval(emitsTowards<F>(view.z, light(&TriangleLight::flags)) & isFinite(pdf),
-                     light(&TriangleLight::radiance), pdf);
+    const UInt<F> flags = light(&TriangleLight::flags);
+    return lightEval(emitsTowards<F>(view.z, flags) & isFinite(pdf), emittedRadiance(light, tables, flags, hit.p), pdf);
 }
 
 }  // namespace penumbra

@@ -88,10 +88,27 @@ LightEval<F> lightEval(const Mask<F>& valid, const Spectrum<F>& L, F pdf) {
     return {select(valid, L, Spectrum<F>::constant(F(0.f))), select(valid, pdf, F(0.f))};
 }
 
+/// How a picture lies on an area light (emission_picture.h). A point goes by an affine map to the picture's own space:
+/// x and y are how far u and v have moved from their start (flat shapes), or it is the shape's own with radius 1
+/// (disks, cylinders, spheres).
+struct EmissionPicture {
+    enum Map : std::uint32_t { Flat, Disk, Cylinder, Sphere };
+
+    Map map = Flat;
+    Vec3<float> origin{}, toX{}, toY{}, toZ{};  ///< x = toX . (p - origin), and so on
+    float uStart = 0, vStart = 0;               ///< flat: u = uStart + x, v = vStart + y
+    float phiMax = 1, vPerUnit = 1;             ///< round: u = phi / phiMax, v = (vStart - t) vPerUnit, where t is the
+                                                ///< radius on disks, z on cylinders, the angle from +z on
+                                                ///< spheres
+    std::uint32_t firstPixel = 0, width = 1, height = 1;  ///< rows of four (r, g, b, -) in LightTables::numbers
+    float mean = 0;                                       ///< of all pixels and channels
+};
+
 /// What lights share: their variable-length data (images and distributions; lights hold offsets), the scene's size, and
 /// the way of sampling.
 struct LightTables {
     std::vector<float> numbers;
+    std::vector<EmissionPicture> pictures;
     Vec3<float> sceneCenter{};  ///< bounding sphere of the scene
     float sceneRadius = 1.f;
     bool classicArea = false;  ///< --light-sampling area: uniform points on every area light

@@ -26,16 +26,19 @@ struct QuadricPlace {
     static Vec3<F> toObject(const Records<F, Light>& light, const Vec3<F>& v) {
         return {dot(light(&Light::toObjectX), v), dot(light(&Light::toObjectY), v), dot(light(&Light::toObjectZ), v)};
     }
-    /// The sample whose unit direction, distance and density are given in object space.
+    /// The sample for the point p whose unit direction, distance and density are given in object space.
     template <class F, class Light>
-    static LightSample<F> toWorld(const Records<F, Light>& light, const Mask<F>& valid, const Vec3<F>& direction,
-                                  F distance, F pdf) {
+    static LightSample<F> toWorld(const Records<F, Light>& light, const LightTables& tables, const Vec3<F>& p,
+                                  const Mask<F>& valid, const Vec3<F>& direction, F distance, F pdf) {
         const Vec3<F> w = light(&Light::toWorldX) * direction.x + light(&Light::toWorldY) * direction.y +
                           light(&Light::toWorldZ) * direction.z;
         const F stretch = length(w), relative = stretch * light(&Light::inverseScale);
         const F inWorld = pdf * (relative * relative * relative);
-        return lightSample(valid & isFinite(inWorld), w * (F(1.f) / stretch), distance * stretch,
-                           light(&Light::radiance), inWorld, hasFlag<F>(light(&Light::flags), kLightUnmet));
+        const Vec3<F> wi = w * (F(1.f) / stretch);
+        const F far = distance * stretch;
+        const UInt<F> flags = light(&Light::flags);
+        return lightSample(valid & isFinite(inWorld), wi, far, emittedRadiance(light, tables, flags, p + wi * far),
+                           inWorld, hasFlag<F>(flags, kLightUnmet));
     }
     /// What a density of object space is multiplied by in the world, for the unit direction w of the world: M^-1 w is
     /// there, so the unit vector along it is stretched by 1 / |M^-1 w|.

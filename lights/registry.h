@@ -29,9 +29,8 @@
 
 namespace penumbra {
 
-using LightTypes =
-    TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, CylinderLight, PointLight, SpotLight,
-             GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight>;
+using LightTypes = TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, CylinderLight, PointLight, SpotLight,
+                            GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight>;
 
 /// What `list lights` shows: each plug-in once, though several types (the shapes of an area light) share it.
 std::vector<PluginInfo> lightPlugins();

@@ -35,7 +35,7 @@ void buildWorld(SceneDescription& description, const BuildOptions& options, Buil
     TextureLibrary textures(description, context, scene.textures);
     MaterialLibrary materials(description, context, textures, scene.materials);
     MediumLibrary media(description, context, scene.media);
-    AreaLightLibrary areaLights(description, context);
+    AreaLightLibrary areaLights(description, context, scene.lights.tables);
     ShapeBuilder shapes(context, textures, materials, media, areaLights, options.meshFacts);
     WorldBuilder world(context, shapes, scene);
     scene.cameraMedium = media.row(description.camera.medium, description.camera.where);

@@ -28,6 +28,26 @@ struct LightCases;  // static std::vector<LightCase> make(double scale): everyth
 
 inline const Spectrum<float> kTestRadiance = {2.f, 1.f, 0.5f};
 
+/// A picture of 5 x 4 pixels, none of them black.
+inline EmissionPicture testPicture(LightTables& tables) {
+    std::vector<float> rgb;
+    for (int i = 0; i < 3 * 20; ++i)
+        rgb.push_back(0.5f + float(i * 7 % 11));
+    return makePicture(rgb, 5, 4, tables);
+}
+
+/// Puts a picture on the only light of the table.
+template <class T>
+void putPicture(LightTable& lights, const EmissionPicture& picture) {
+    T light = lights.rows<T>()[0];
+    const LightTables tables = lights.tables;
+    lights = {};
+    lights.tables = tables;
+    lights.tables.pictures.push_back(picture);
+    light.flags |= kLightPictured;
+    lights.add(light);
+}
+
 inline LightHit<float> hitAt(const Vec3<float>& from, Vec3d w, double t) {
     return {from, rounded(widened(from) + w * t), rounded(w)};
 }
@@ -75,6 +95,13 @@ struct LightCases<RectangleLight> {
         add("tiny, by area", {-0.05, 0.03, 1}, x * 0.008, y * 0.008, down, {0, 0, 0});
         add("two-sided from behind", {0, 0, 1}, x, y, up, {0.2, 0.7, 0}, kLightTwoSided);
         add("tilted", {0.3, -0.2, 1}, {0.6, 0.8, 0}, {-0.48, 0.36, 0.8}, {0, 0, -1}, {0, 0, 0}, kLightUnmet);
+        add("with a picture", {-1, -1, 1}, x * 2, y * 2, down, {0, 0, 0});
+        LightTable& lights = cases.back().lights;
+        putPicture<RectangleLight>(lights,
+                                   onTriangle(testPicture(lights.tables),
+                                              {rounded(Vec3d{-1, -1, 1} * scale), rounded(Vec3d{1, -1, 1} * scale),
+                                               rounded(Vec3d{-1, 1, 1} * scale)},
+                                              {{{0, 0}, {1, 0}, {0, 1}}}));
         return cases;
     }
 };
@@ -106,6 +133,13 @@ struct LightCases<TriangleLight> {
         add("small", {0.5, 0.5, 1}, {0.53, 0.5, 1.01}, {0.5, 0.54, 1}, {0, 0, 0});
         add("tiny, by area", {0.5, 0.5, 1}, {0.51, 0.5, 1.01}, {0.5, 0.51, 1}, {0, 0, 0});
         add("other winding", {0, 0, 1}, {0, 1, 1}, {1, 0, 1}, {0.2, 0.1, 0}, kLightTwoSided);
+        add("with a picture", {-1, -1, 0.5}, {2, -0.5, 0.8}, {0, 1.5, 0.6}, {0, 0, 0});
+        LightTable& lights = cases.back().lights;
+        const TriangleLight& light = lights.rows<TriangleLight>()[0];
+        putPicture<TriangleLight>(lights,
+                                  onTriangle(testPicture(lights.tables),
+                                             {light.corner, light.corner + light.edgeB, light.corner + light.edgeC},
+                                             {{{-0.2f, 0.1f}, {0.9f, 0.3f}, {0.5f, 1.2f}}}));
         return cases;
     }
 };
@@ -145,6 +179,12 @@ struct LightCases<SphereLight> {
         add("zone", translation(0, 0, 3), {0.2, 0, 0}, {-0.5, 0.3, kFull});
         add("bowl, two-sided", translation(0, 0, 3), {0, 0, 0}, {-1, 0.2, 4.0}, kLightTwoSided);
         add("sector of an ellipsoid", ellipsoid, {0, 0, 0}, {-0.9, 0.7, 3.0}, kLightReversed);
+        add("with a picture", translation(1, 1, 2) * rotation(70, 1, 0, 2), {0, 0, 0});
+        LightTable& lights = cases.back().lights;
+        putPicture<SphereLight>(
+            lights, onRound(testPicture(lights.tables), EmissionPicture::Sphere,
+                            scaling(scale, scale, scale) * translation(1, 1, 2) * rotation(70, 1, 0, 2), kFull,
+                            std::numbers::pi, 0));
         return cases;
     }
 
@@ -195,6 +235,10 @@ struct LightCases<DiskLight> {
         add("ring", {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 0.5, full, {0.3, 0, 0});
         add("sector of a ring", {0.5, 0, 1}, {0, 1, 0}, {1, 0, 0}, 0.3, 4, {0, 0, 0}, kLightTwoSided);
         add("ellipse", {0, 1, 2}, {1.5, 0, 0.5}, {0.2, 0.6, 0}, 0, full, {0, 0, 0});
+        add("ring with a picture", {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 0.5, full, {0.3, 0, 0});
+        LightTable& lights = cases.back().lights;
+        putPicture<DiskLight>(lights, onRound(testPicture(lights.tables), EmissionPicture::Disk,
+                                              scaling(scale, scale, scale) * translation(0, 0, 1), full, 1, 0.5));
         return cases;
     }
 };
@@ -224,6 +268,11 @@ struct LightCases<CylinderLight> {
         add("gutter", lying, -0.5, 1, 3.5, {0, 0, 0}, kLightTwoSided);
         add("elliptic and mirrored", translation(0, 0.5, 2) * rotation(40, 1, 2, 0) * scaling(-0.5, 1.5, 1), -0.9, 0.7,
             5.0, {0, 0, 0}, kLightReversed);
+        add("with a picture", lying, -1, 1, full, {0, 0, 0});
+        LightTable& lights = cases.back().lights;
+        putPicture<CylinderLight>(lights,
+                                  onRound(testPicture(lights.tables), EmissionPicture::Cylinder,
+                                          scaling(scale, scale, scale) * lying * scaling(0.5, 0.5, 0.5), full, -2, 2));
         return cases;
     }
 

@@ -23,6 +23,15 @@ T onlyLight(const BuiltScene& built) {
     return rows.empty() ? T{} : rows[0];
 }
 
+/// A PFM picture of one colour.
+std::string pfm(int width, int height, Rgb c) {
+    std::string bytes = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
+    for (int i = 0; i < width * height; ++i)
+        for (const float v : {c.r, c.g, c.b})
+            bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
+    return bytes;
+}
+
 /// Whether light 0 is seen by light sampling from a point.
 bool shinesTo(const Scene& scene, Vec3<float> p) {
     return sampleLight<float>(scene.lights, 0u, p, {0.4f, 0.6f}).valid;
@@ -107,6 +116,39 @@ TEST(AreaLights, PowerIsThatOfEachPrimitive) {
                     12 / (pi * 3 * pi));
 }
 
+TEST(AreaLights, PicturesAreTheirRadiance) {
+    const TemporaryFolder folder;
+    folder.file("grey.pfm", pfm(4, 4, {1, 2, 3}));
+    const auto built = [&](const std::string& parameters, const std::string& shape) {
+        return buildWorld("AreaLightSource \"diffuse\" \"string filename\" \"grey.pfm\" " + parameters + "\n" + shape,
+                          folder.path(""));
+    };
+    const auto radiance = [&](const std::string& parameters, const std::string& shape) {
+        return sampleLight<float>(built(parameters, shape).scene.lights, 0u, {0.3f, 0.5f, 8}, {0.4f, 0.6f}).L;
+    };
+    const std::string uv = kRectangle.substr(0, kRectangle.size() - 1) + " \"point2 uv\" [0 0 1 0 1 1 0 1]\n";
+    for (const std::string& shape : {uv, kRectangle, kTwoTriangles, std::string("Shape \"sphere\" \"float radius\" 2"),
+                                     std::string("Shape \"disk\" \"float radius\" 2")}) {
+        EXPECT_NEAR(radiance("\"float scale\" 3", shape).b, 9, 1e-5) << shape;
+        EXPECT_TRUE(built("", shape).warnings.all().empty());
+    }
+    // The power is that of the luminance.
+    const float luminance = 0.2126f * 1 + 0.7152f * 2 + 0.0722f * 3, pi = std::numbers::pi_v<float>;
+    EXPECT_NEAR(radiance("\"float power\" 12", kRectangle).r, 12 / (pi * 3 * luminance), 1e-4);
+
+    // One light where the two triangles show one picture; without uv each shows its own.
+    EXPECT_EQ(built("", uv).scene.lights.size(), 1u);
+    EXPECT_EQ(built("", kRectangle).scene.lights.size(), 2u);
+
+    folder.file("black.pfm", pfm(2, 2, {0, 0, 0}));
+    EXPECT_TRUE(buildWorld("AreaLightSource \"diffuse\" \"string filename\" \"black.pfm\" " + uv, folder.path(""))
+                    .scene.lights.empty());
+    EXPECT_NE(errorOf("WorldBegin AreaLightSource \"diffuse\" \"string filename\" \"grey.pfm\" \"rgb L\" [1 1 1] " + uv,
+                      {}, folder.path(""))
+                  .find("not both"),
+              std::string::npos);
+}
+
 TEST(AreaLights, AlphaZeroIsSeenByNoRayButShines) {
     const BuiltScene built = buildWorld(kArea + "Shape \"disk\" \"float alpha\" 0");
     EXPECT_FALSE(trace(built.scene, {0, 0, 5}, {0, 0, -1}));
@@ -180,15 +222,6 @@ TEST(LightSources, ConstantInfiniteLight) {
         buildWorld("LightSource \"infinite\" \"rgb L\" [1 2 3] \"float illuminance\" 2"));
     EXPECT_FLOAT_EQ(sky.radiance.g, 4 / std::numbers::pi_v<float>);
     EXPECT_EQ(buildWorld("LightSource \"infinite\"").scene.lights.infiniteIds().size(), 1u);
-}
-
-/// A PFM picture of one colour.
-std::string pfm(int width, int height, Rgb c) {
-    std::string bytes = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
-    for (int i = 0; i < width * height; ++i)
-        for (const float v : {c.r, c.g, c.b})
-            bytes.append(reinterpret_cast<const char*>(&v), sizeof v);
-    return bytes;
 }
 
 TEST(LightSources, ImageInfiniteLight) {

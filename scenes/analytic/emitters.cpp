@@ -3,6 +3,7 @@
 // A Lambert receiver shows rho E / pi; all lights have radiance 1 unless said. B: one receiver point (Howell's
 // catalogue of configuration factors, and Lambert's formulas); C: the mean over a whole receiver, which is the form
 // factor.
+#include "scenes/analytic/quadrature.h"
 #include "scenes/analytic/scene_text.h"
 
 #include <fmt/format.h>
@@ -155,6 +156,33 @@ void addRectangles(std::vector<AnalyticScene>& scenes) {
                                     emitter(1, rectangleZ(-scale, scale, -scale, scale, scale, Facing::Negative)));
         scenes.push_back(scaled);
     }
+}
+
+/// A lamp whose radiance is an image.
+void addPicture(std::vector<AnalyticScene>& scenes) {
+    // Over y from 0 to 2, u = y / 2: .5 below u = 1/4, 2 above 3/4, linear between; times a scale of 2. At height 1 the
+    // form factor's integrand is 1 / (pi d^4), whose integral over x is elementary.
+    const auto radiance = [](double y) { return 2 * (.5 + 1.5 * std::clamp(y - .5, 0., 1.)); };
+    const auto acrossX = [](double y) {
+        const double c2 = y * y + 1, c = std::sqrt(c2);
+        return 1 / (c2 * (1 + c2)) + std::atan(1 / c) / (c2 * c);
+    };
+    double irradiance = 0;
+    for (const auto& [from, to] : {std::pair{0., .5}, {.5, 1.5}, {1.5, 2.}})
+        irradiance += integrate(from, to, [&](double y) { return radiance(y) * acrossX(y); });
+    AnalyticScene s =
+        point("B7p",
+              "lamp 2 x 2 at height 1, its edge over the receiver, whose radiance is an image: two pixels, "
+              "and a ramp between them",
+              scoped(black() +
+                     "AreaLightSource \"diffuse\" \"string filename\" \"ramp.pfm\" \"float scale\" "
+                     "[ 2 ]\n" +
+                     rectangleZ(-1, 1, 0, 2, 1, Facing::Negative)),
+              irradiance);
+    s.files = {{"ramp.pfm", pfmImage(2, 1, {{.5f, .5f, .5f}, {2.f, 2.f, 2.f}})}};
+    scenes.push_back(s);
+    scenes.push_back(with(AnalyticScene::Strategy::LightSampling, s));
+    scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, s));
 }
 
 /// Many lights: each must be picked as often as its pick probability says.
@@ -396,6 +424,7 @@ std::vector<AnalyticScene> analyticEmitters() {
     addDisks(scenes);
     addCylinders(scenes);
     addRectangles(scenes);
+    addPicture(scenes);
     addManyLights(scenes);
     addSky(scenes);
     addLightsOfOneDirection(scenes);

@@ -1,8 +1,6 @@
 // Area lights: their parameters, and what they make of a mesh or a quadric.
 #include "scenes/builder/lights.h"
 
-#include "core/image/image_io.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -26,6 +24,7 @@ Vec3<float> rounded(Vec3d v) {
 /// One triangle of a shape, facing the way that hits of it do.
 struct LightTriangle {
     std::array<Vec3<float>, 3> corner;
+    std::array<Vec2<float>, 3> uv{{{0, 0}, {1, 0}, {1, 1}}};  ///< of a mesh without
     Vec3<float> facing;
     double area = 0;
 
@@ -33,6 +32,11 @@ struct LightTriangle {
         const std::uint32_t* index = &g.indices[3 * std::size_t(shape.first + triangle)];
         for (std::size_t i = 0; i < 3; ++i)
             corner[i] = at(g.positions, index[i]);
+        if (shape.uvShift != kNone)
+            for (std::size_t i = 0; i < 3; ++i) {
+                const float* v = &g.uvs[2 * std::size_t(index[i] + shape.uvShift)];
+                uv[i] = {v[0], v[1]};
+            }
         const auto edge = [&](std::size_t i) {
             return Vec3<double>{double(corner[i].x) - corner[0].x, double(corner[i].y) - corner[0].y,
                                 double(corner[i].z) - corner[0].z};
@@ -60,19 +64,42 @@ private:
     }
 };
 
-/// The rectangle that a mesh of two triangles is; nothing otherwise.
-std::optional<RectangleShape> rectangleOf(const Geometry& g, const ShapeRecord& shape) {
+/// Whether a picture that lies rightly on the one triangle does so on the other.
+bool isOnePicture(const LightTriangle& a, const LightTriangle& b) {
+    LightTables tables;
+    tables.pictures.push_back(onTriangle({}, a.corner, a.uv));
+    const Records<float, EmissionPicture> picture(tables.pictures.data(), 0u);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec2<float> uv = pictureUv<float>(picture, b.corner[i]);
+        if (!(std::abs(uv.x - b.uv[i].x) < 1e-4f && std::abs(uv.y - b.uv[i].y) < 1e-4f)) return false;
+    }
+    return true;
+}
+
+/// The rectangle that a mesh of two triangles is, with its picture on it if there is one; nothing otherwise.
+std::optional<RectangleShape> rectangleOf(const Geometry& g, const ShapeRecord& shape, bool hasPicture) {
     if (shape.count != 2) return std::nullopt;
     const LightTriangle a(g, shape, 0), b(g, shape, 1);
-    if (!(dot(a.facing, b.facing) > 0)) return std::nullopt;
+    if (!(dot(a.facing, b.facing) > 0) || (hasPicture && !isOnePicture(a, b))) return std::nullopt;
     return rectangleOfTriangles(a.corner, b.corner);
+}
+
+/// Adds a light on a shape, with the picture as `lay` lays it there.
+template <class Light, class Lay>
+void addLight(const AreaEmission& emission, Light light, LightTable& lights, Lay&& lay) {
+    if (emission.picture) {
+        light.flags |= kLightPictured;
+        light.picture = std::uint32_t(lights.tables.pictures.size());
+        lights.tables.pictures.push_back(lay(*emission.picture));
+    }
+    lights.add(light);
 }
 
 }  // namespace
 
 Spectrum<float> AreaEmission::radianceOf(double area) const {
     if (!(power > 0)) return toSpectrum(radiance);
-    const double factor = power / (kPi * area * (twoSided ? 2 : 1));
+    const double factor = power / (kPi * area * pictureLuminance * (twoSided ? 2 : 1));
     return toSpectrum(radiance * float(std::fmin(factor, kMost)));
 }
 
@@ -96,48 +123,40 @@ AreaEmission AreaLightLibrary::read(const Entity& entity) {
     const std::string file = p.text("filename", "");
     if (!file.empty() && BuildContext::findSpectrum(p, "L"))
         context_.fail(entity.where, owner + ": takes either L or an image, not both");
-    emission.radiance =
-        (file.empty() ? context_.illuminant(p, "L", owner) : readImageMean(entity, file, owner)) * scale;
+    if (!file.empty()) readPicture(entity, file, owner, emission);
+    emission.radiance = (file.empty() ? context_.illuminant(p, "L", owner) : Rgb{1, 1, 1}) * scale;
     if (!(emission.radiance.largest() <= kMost))
         context_.fail(entity.where, owner + ": the radiance is too large for a float");
     context_.warnUnused(p, owner);
     return emission;
 }
 
-/// The image's mean; with a power, scaled to luminance 1, as the format divides by it.
-Rgb AreaLightLibrary::readImageMean(const Entity& entity, const std::string& file, const std::string& owner) {
-    context_.warnOnce("area light image", entity.where,
-                      owner + ": images on area lights are not there yet; their mean stands in for them");
-    const Image image = context_.placed(entity.where, owner, [&] { return readImage(context_.path(file)); });
-    std::array<double, 3> sum{};
-    for (int y = 0; y < image.height(); ++y)
-        for (int x = 0; x < image.width(); ++x) {
-            const Rgb c = image.rgb(x, y);
-            const float channel[3] = {c.r, c.g, c.b};
-            for (std::size_t i = 0; i < 3; ++i)
-                if (std::isfinite(channel[i])) sum[i] += std::fmax(channel[i], 0.f);
-        }
-    const double count = double(image.width()) * image.height();
-    const Rgb mean = apply(lightConversion(image.colorSpace(), context_.filmColorSpace()),
-                           {float(sum[0] / count), float(sum[1] / count), float(sum[2] / count)});
-    const double luminance = context_.filmColorSpace().luminance(mean);
-    return entity.parameters.number("power", 0) > 0 && luminance > 0 ? mean / float(luminance) : mean;
+void AreaLightLibrary::readPicture(const Entity& entity, const std::string& file, const std::string& owner,
+                                   AreaEmission& emission) {
+    const LightImage image(file, entity.where, owner, context_);
+    emission.pictureLuminance = image.meanLuminance(context_.filmColorSpace(), [](double, double) { return 1.; });
+    emission.picture = context_.placed(entity.where, owner,
+                                       [&] { return makePicture(image.rgb, image.width, image.height, tables_); });
 }
 
 void addMeshLights(const AreaEmission& emission, const Geometry& geometry, LightTable& lights, ShapeRecord& shape) {
     const std::uint32_t flags = lightFlags(emission, shape);
     shape.light = lights.size();
-    if (const std::optional<RectangleShape> r = rectangleOf(geometry, shape)) {
+    if (const std::optional<RectangleShape> r = rectangleOf(geometry, shape, emission.picture.has_value())) {
         const LightTriangle half(geometry, shape, 0);
-        lights.add(
-            RectangleLight::make(r->corner, r->edgeX, r->edgeY, half.facing, emission.radianceOf(half.area), flags));
+        addLight(
+            emission,
+            RectangleLight::make(r->corner, r->edgeX, r->edgeY, half.facing, emission.radianceOf(half.area), flags),
+            lights, [&](const EmissionPicture& picture) { return onTriangle(picture, half.corner, half.uv); });
         return;
     }
     shape.lightStride = 1;
     for (std::uint32_t i = 0; i < shape.count; ++i) {
         const LightTriangle t(geometry, shape, i);
-        lights.add(
-            TriangleLight::make(t.corner[0], t.corner[1], t.corner[2], t.facing, emission.radianceOf(t.area), flags));
+        addLight(
+            emission,
+            TriangleLight::make(t.corner[0], t.corner[1], t.corner[2], t.facing, emission.radianceOf(t.area), flags),
+            lights, [&](const EmissionPicture& picture) { return onTriangle(picture, t.corner, t.uv); });
     }
 }
 
@@ -149,24 +168,40 @@ void addQuadricLight(const AreaEmission& emission, const QuadricRecord& q, const
     // Power goes by the area in object space, as the format has it.
     if (q.kind != ShapeKind::Disk) {
         const double area = double(q.phiMax) * q.radius * (double(q.zMax) - q.zMin);
-        const auto add = [&]<class Light>(Light light) {
+        const auto add = [&]<class Light>(Light light, auto&& lay) {
             const bool made = Light::make(worldFromObject, q.radius, q.zMin, q.zMax, q.phiMax,
                                           emission.radianceOf(area), flags | (flipped ? kLightReversed : 0u), light);
             if (made)
-                lights.add(light);
+                addLight(emission, light, lights, lay);
             else
                 shape.light = kNone;
         };
-        q.kind == ShapeKind::Sphere ? add(SphereLight{}) : add(CylinderLight{});
+        if (q.kind == ShapeKind::Sphere)
+            add(SphereLight{}, [&](const EmissionPicture& picture) {
+                return onRound(picture, EmissionPicture::Sphere,
+                               worldFromObject * scaling(q.radius, q.radius, q.radius), q.phiMax, q.thetaMax,
+                               q.thetaMin);
+            });
+        else
+            add(CylinderLight{}, [&](const EmissionPicture& picture) {
+                return onRound(picture, EmissionPicture::Cylinder,
+                               worldFromObject * scaling(q.radius, q.radius, q.radius), q.phiMax,
+                               double(q.zMin) / q.radius, double(q.zMax) / q.radius);
+            });
         return;
     }
     const double inner = double(q.innerRadius) / q.radius;
     const double area = 0.5 * q.phiMax * q.radius * q.radius * (1 - inner * inner);
     const Vec3<float> up = loadAffine<float>(&q.worldFromObject, 0u).normal({0, 0, flipped ? -1.f : 1.f});
-    lights.add(DiskLight::make(rounded(transformPoint(worldFromObject, {0, 0, q.zMin})),
-                               rounded(transformVector(worldFromObject, {q.radius, 0, 0})),
-                               rounded(transformVector(worldFromObject, {0, q.radius, 0})), float(inner), q.phiMax, up,
-                               emission.radianceOf(area), flags));
+    const Matrix4 fromUnit = worldFromObject * translation(0, 0, q.zMin) * scaling(q.radius, q.radius, q.radius);
+    addLight(emission,
+             DiskLight::make(rounded(transformPoint(worldFromObject, {0, 0, q.zMin})),
+                             rounded(transformVector(worldFromObject, {q.radius, 0, 0})),
+                             rounded(transformVector(worldFromObject, {0, q.radius, 0})), float(inner), q.phiMax, up,
+                             emission.radianceOf(area), flags),
+             lights, [&](const EmissionPicture& picture) {
+                 return onRound(picture, EmissionPicture::Disk, fromUnit, q.phiMax, 1, inner);
+             });
 }
 
 }  // namespace penumbra::builder

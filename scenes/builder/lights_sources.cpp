@@ -1,8 +1,6 @@
 // LightSource: point, spot, goniometric, projection, distant, infinite.
 #include "scenes/builder/lights.h"
 
-#include "core/image/image_io.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -53,16 +51,14 @@ public:
             context_.warn(light_.where, owner_ + ": without a filename it shines alike in all directions");
             return addPoint();
         }
-        const Image image = squareImage(file);
+        // The mean of the channels is the same in any space only before it is changed, so the image's own is taken.
+        const LightImage image = squareImage(file, LightImage::Space::Own);
         std::vector<float> values;
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) {
-                const Rgb c = image.rgb(x, y);
-                values.push_back((c.r + c.g + c.b) / 3);
-            }
+        for (std::size_t i = 0; i < image.rgb.size(); i += 3)
+            values.push_back((image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2]) / 3);
         add([&] {
             GoniometricLight light =
-                GoniometricLight::make(light_.lightToWorld, values, std::size_t(image.width()), {}, lights_.tables);
+                GoniometricLight::make(light_.lightToWorld, values, image.width, {}, lights_.tables);
             light.intensity = toSpectrum(intensity(4 * kPi * light.mean));
             return light;
         });
@@ -72,13 +68,16 @@ public:
         const std::string file = parameters_.text("filename", "");
         if (file.empty()) fail("needs an image, as \"string filename\"");
         const float fov = context_.number(parameters_, "fov", 90, 0.01f, 179);
-        const Image image = readFile(file);
-        const std::vector<float> pixels = inFilmSpace(image);
-        const std::size_t width = std::size_t(image.width()), height = std::size_t(image.height());
-        const float unitPower = number("power", 0) > 0 ? projectedLuminance(pixels, {width, height, fov}, width) : 1.f;
+        const LightImage image = readFile(file);
+        const ProjectionScreen screen(image.width, image.height, fov);
+        const float unitPower =
+            number("power", 0) > 0
+                ? float(luminance(image, [&](double u, double v) { return screen.cosineCubed(u, v); }) * screen.area())
+                : 1.f;
         const float factor = checked(Rgb{1, 1, 1} * withPower(unitPower)).r;
         add([&] {
-            return ProjectionLight::make(light_.lightToWorld, pixels, width, height, fov, factor, lights_.tables);
+            return ProjectionLight::make(light_.lightToWorld, image.rgb, image.width, image.height, fov, factor,
+                                         lights_.tables);
         });
     }
 
@@ -112,80 +111,43 @@ private:
         context_.placed(light_.where, owner_, [&] { lights_.add(make()); });
     }
 
-    Image readFile(const std::string& file) const {
-        return context_.placed(light_.where, owner_, [&] { return readImage(context_.path(file)); });
+    LightImage readFile(const std::string& file, LightImage::Space space = LightImage::Space::Film) const {
+        return LightImage(file, light_.where, owner_, context_, space);
     }
 
-    Image squareImage(const std::string& file) const {
-        Image image = readFile(file);
-        if (image.width() != image.height())
+    LightImage squareImage(const std::string& file, LightImage::Space space) const {
+        LightImage image = readFile(file, space);
+        if (image.width != image.height)
             fail(
                 fmt::format("the image {} has {} x {} pixels; it has to be square, in the equal-area octahedral map "
-                            "(imgtool of pbrt makes "
-                            "one of a latitude-longitude map)",
-                            quote(file, 200), image.width(), image.height()));
+                            "(imgtool of pbrt makes one of a latitude-longitude map)",
+                            quote(file, 200), image.width, image.height));
         return image;
     }
 
     void addImage(const std::string& file, float illuminance) {
         if (BuildContext::findSpectrum(parameters_, "L")) fail("takes either L or an image, not both");
-        const Image image = squareImage(file);
-        const std::vector<float> pixels = inFilmSpace(image);
-        const float size = illuminance > 0 ? illuminance / upwardIlluminance(pixels, std::size_t(image.width())) : 1.f;
+        const LightImage image = squareImage(file, LightImage::Space::Film);
+        float size = 1;
+        if (illuminance > 0) {
+            // The format divides by half of the true illuminance of an upward surface.
+            const double upward = kTwoPi * luminance(image, [&](double s, double t) {
+                                      return std::fmax(equalAreaDirection(Vec2<float>{float(s), float(t)}).z, 0.f);
+                                  });
+            if (!(upward > 0)) fail("an illuminance needs an image that is not black above the horizon");
+            size = float(illuminance / upward);
+        }
         const Rgb factor = checked(Rgb{1, 1, 1} * (scale() * size));
         add([&] {
-            return ImageInfiniteLight::make(pixels, std::size_t(image.width()), toSpectrum(factor), light_.lightToWorld,
+            return ImageInfiniteLight::make(image.rgb, image.width, toSpectrum(factor), light_.lightToWorld,
                                             lights_.tables);
         });
     }
 
-    /// r, g, b of all pixels; what is negative in the image's own space is 0.
-    std::vector<float> inFilmSpace(const Image& image) const {
-        const Matrix3 toFilm = lightConversion(image.colorSpace(), context_.filmColorSpace());
-        std::vector<float> pixels;
-        pixels.reserve(3 * std::size_t(image.width()) * std::size_t(image.height()));
-        std::size_t broken = 0;
-        for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) {
-                const Rgb c = image.rgb(x, y);
-                broken += !c.isFinite();
-                const Rgb film = apply(toFilm, {std::fmax(c.r, 0.f), std::fmax(c.g, 0.f), std::fmax(c.b, 0.f)});
-                pixels.insert(pixels.end(), {film.r, film.g, film.b});
-            }
-        if (broken)
-            context_.warn(light_.where,
-                          fmt::format("{}: {} pixels of the image are not finite and count as black", owner_, broken));
-        return pixels;
-    }
-
-    /// What the format divides an illuminance by: half of the true one of an upward surface.
-    float upwardIlluminance(const std::vector<float>& pixels, std::size_t n) const {
-        double sum = 0;
-        for (std::size_t y = 0; y < n; ++y)
-            for (std::size_t x = 0; x < n; ++x) {
-                const float* c = &pixels[3 * (y * n + x)];
-                const Vec3<float> d =
-                    equalAreaDirection(Vec2<float>{(float(x) + 0.5f) / float(n), (float(y) + 0.5f) / float(n)});
-                const double luminance = context_.filmColorSpace().luminance({c[0], c[1], c[2]});
-                if (d.z > 0 && std::isfinite(luminance)) sum += luminance * d.z;
-            }
-        if (!(sum > 0)) fail("an illuminance needs an image that is not black above the horizon");
-        return float(kTwoPi * sum / (double(n) * double(n)));
-    }
-
-    /// The luminous flux through the screen of an image.
-    float projectedLuminance(const std::vector<float>& pixels, const ProjectionScreen& screen,
-                             std::size_t width) const {
-        const std::size_t count = pixels.size() / 3, height = count / width;
-        double sum = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const double luminance =
-                context_.filmColorSpace().luminance({pixels[3 * i], pixels[3 * i + 1], pixels[3 * i + 2]});
-            if (std::isfinite(luminance))
-                sum += luminance * screen.cosineCubed((double(i % width) + 0.5) / double(width),
-                                                      (double(i / width) + 0.5) / double(height));
-        }
-        return float(sum / double(count) * screen.area());
+    /// The mean over the image's pixels of the luminance times a weight of the pixel's middle, in [0, 1]^2.
+    template <class Weight>
+    double luminance(const LightImage& image, Weight&& weight) const {
+        return image.meanLuminance(context_.filmColorSpace(), weight);
     }
 
     /// Scale, and power where it is given, for a light whose flux without them is `unitPower`.
