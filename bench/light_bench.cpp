@@ -81,7 +81,7 @@ std::vector<Named> fill(LightTable& lights) {
     std::mt19937 generator(2);
     for (float& v : rgb)
         v = float(generator() >> 8) * 0x1p-24f;
-    add("infinite image", ImageInfiniteLight::make(rgb, 1024, kRadiance, Matrix4{}, lights.tables));
+    add("infinite image", ImageInfiniteLight::make(SkyMap::EqualArea, rgb, 1024, 1024, kRadiance, Matrix4{}, lights.tables));
     return names;
 }
 

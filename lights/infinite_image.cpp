@@ -32,11 +32,11 @@ std::array<Vec3<float>, 3> orthonormalAxes(const Matrix4& m) {
 
 }  // namespace
 
-ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::size_t resolution,
-                                            const Spectrum<float>& scale, const Matrix4& worldFromLight,
-                                            LightTables& tables) {
-    const std::size_t count = resolution * resolution;
-    if (resolution == 0 || resolution > kMaxResolution)
+ImageInfiniteLight ImageInfiniteLight::make(SkyMap map, std::span<const float> rgb, std::size_t width,
+                                            std::size_t height, const Spectrum<float>& scale,
+                                            const Matrix4& worldFromLight, LightTables& tables) {
+    const std::size_t count = width * height;
+    if (count == 0 || width > kMaxResolution || height > kMaxResolution)
         throw Error(ErrorKind::BadData, "the image of the infinite light is too large");
 
     ImageInfiniteLight light;
@@ -44,9 +44,12 @@ ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::siz
     light.axisX = axes[0];
     light.axisY = axes[1];
     light.axisZ = axes[2];
-    light.resolution = std::uint32_t(resolution);
-    light.stride = searchStride(resolution);
-    light.pixels = roomForNumbers(tables, 4 * count + (resolution + 1) * (resolution + 1));
+    light.map = map;
+    light.width = std::uint32_t(width);
+    light.height = std::uint32_t(height);
+    light.strideX = searchStride(width);
+    light.strideY = searchStride(height);
+    light.pixels = roomForNumbers(tables, 4 * count + (height + 1) + height * (width + 1));
     light.distribution = std::uint32_t(light.pixels + 4 * count);
     tables.numbers.resize(light.distribution);
     float* const rows = tables.numbers.data() + light.pixels;
@@ -57,26 +60,32 @@ ImageInfiniteLight ImageInfiniteLight::make(std::span<const float> rgb, std::siz
         row[0] = usable(rgb[3 * i] * scale.r);
         row[1] = usable(rgb[3 * i + 1] * scale.g);
         row[2] = usable(rgb[3 * i + 2] * scale.b);
-        weights[i] = average(Spectrum<float>{row[0], row[1], row[2]});
-        sum += weights[i];
+        const double flux = average(Spectrum<float>{row[0], row[1], row[2]}) * light.solidAngle(i / width);
+        weights[i] = float(flux);
+        sum += flux;
     }
-    light.mean = float(sum / double(count));
-    appendCumulativeGrid(weights, resolution, resolution, tables.numbers);
+    light.mean = float(sum / (4 * std::numbers::pi));
+    appendCumulativeGrid(weights, width, height, tables.numbers);
     light.fillDensities(weights, tables);
     return light;
 }
 
+double ImageInfiniteLight::solidAngle(std::size_t row) const {
+    if (map == SkyMap::EqualArea) return 4 * std::numbers::pi / (double(width) * height);
+    const double perRow = std::numbers::pi / height;
+    return 2 * std::numbers::pi / width * (std::cos(double(row) * perRow) - std::cos(double(row + 1) * perRow));
+}
+
 void ImageInfiniteLight::fillDensities(std::span<const float> weights, LightTables& tables) const {
     const float* const table = tables.numbers.data() + distribution;
-    const double perPixel = double(resolution) * resolution / (4 * std::numbers::pi);
-    for (std::uint32_t y = 0; y < resolution; ++y) {
-        const float* const row = table + (resolution + 1) * (1 + std::size_t(y));
-        const double rowProbability = double(table[y + 1]) - table[y];
-        for (std::uint32_t x = 0; x < resolution; ++x) {
-            const std::size_t i = std::size_t(y) * resolution + x;
+    for (std::size_t y = 0; y < height; ++y) {
+        const float* const row = table + (height + 1) + (width + 1) * y;
+        const double perPixel = (double(table[y + 1]) - table[y]) / solidAngle(y);
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t i = y * width + x;
             // An all-black image has a uniform table, but nothing to sample.
-            const double probability = weights[i] > 0 ? rowProbability * (double(row[x + 1]) - row[x]) : 0;
-            tables.numbers[pixels + 4 * i + 3] = float(probability * perPixel);
+            const double density = weights[i] > 0 ? perPixel * (double(row[x + 1]) - row[x]) : 0;
+            tables.numbers[pixels + 4 * i + 3] = float(density);
         }
     }
 }

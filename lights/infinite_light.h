@@ -8,7 +8,8 @@ namespace penumbra {
 
 inline constexpr ParameterInfo kInfiniteParameters[] = {
     {"spectrum", "L", "white", "radiance of a light without an image"},
-    {"string", "filename", "", "square image in the equal-area octahedral map, instead of L"},
+    {"string", "filename", "", "image of all directions, instead of L"},
+    {"string", "mapping", "", "of the image: equalarea (square, octahedral) or latlong; where not said, by its shape"},
     {"float", "scale", "1", "factor on L or the image"},
     {"float", "illuminance", "0", "where positive, the illuminance of an upward-facing surface"},
     {"point3", "portal", "", "four corners of a window that the light comes through"},

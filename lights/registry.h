@@ -19,6 +19,7 @@
 #include "lights/goniometric.h"
 #include "lights/infinite_constant.h"
 #include "lights/infinite_image.h"
+#include "lights/infinite_portal.h"
 #include "lights/point.h"
 #include "lights/projection.h"
 #include "lights/spot.h"
@@ -30,7 +31,8 @@
 namespace penumbra {
 
 using LightTypes = TypeList<RectangleLight, TriangleLight, SphereLight, DiskLight, CylinderLight, PointLight, SpotLight,
-                            GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight>;
+                            GoniometricLight, ProjectionLight, DistantLight, ConstantInfiniteLight, ImageInfiniteLight,
+                            PortalInfiniteLight>;
 
 /// What `list lights` shows: each plug-in once, though several types (the shapes of an area light) share it.
 std::vector<PluginInfo> lightPlugins();

@@ -70,6 +70,7 @@ inline std::string roomText(const std::string& sampler = "sobol", int samples = 
 WorldBegin
 LightSource "infinite" "string filename" "sky.pfm" "float scale" .3
 LightSource "infinite" "rgb L" [ .05 .06 .07 ]
+LightSource "infinite" "string filename" "sky.pfm" "point3 portal" [ -1 2.9 -1  1 2.9 -1  1 2.9 1  -1 2.9 1 ]
 LightSource "distant" "point3 from" [ 1 2 -1 ] "rgb L" [ .4 .3 .2 ]
 LightSource "point" "point3 from" [ -1 1.8 -1 ] "rgb I" [ .3 .5 .6 ]
 LightSource "spot" "point3 from" [ 1 2.2 -1 ] "point3 to" [ .3 0 0 ] "rgb I" [ .6 .5 .3 ] "float conedeltaangle" 20
@@ -122,7 +123,8 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indice
            scoped(
                "Translate 1.3 .2 -1.8\nMaterial \"phong\" \"texture kd\" \"check\"\nShape \"sphere\" \"float radius\" "
                ".2\n"
-               "Translate -2.7 0 0\nMaterial \"blinn\" \"rgb ks\" [ .6 .5 .2 ]\nShape \"sphere\" \"float radius\" "
+               "Translate -2.7 0 0\nMaterial \"blinn\" \"rgb kd\" [ .3 .3 .3 ] \"rgb ks\" [ .6 .5 .2 ]\n"
+               "Shape \"sphere\" \"float radius\" "
                ".2\n") +
            scoped(
                "Translate .6 .25 -1.6\nMaterial \"dielectric\" \"float roughness\" .2\n"

@@ -381,26 +381,67 @@ template <>
 struct LightCases<ImageInfiniteLight> {
     static std::vector<LightCase> make(double) {
         std::vector<LightCase> cases;
-        const auto add = [&](std::string name, std::size_t n, const Matrix4& m, auto pixel) {
+        const auto add = [&](std::string name, SkyMap map, std::size_t n, const Matrix4& m, auto pixel) {
             LightCase c;
             c.name = "infinite image " + name;
+            const std::size_t width = map == SkyMap::LatLong ? 2 * n : n;
             std::vector<float> rgb;
             for (std::size_t y = 0; y < n; ++y) {
-                for (std::size_t x = 0; x < n; ++x) {
+                for (std::size_t x = 0; x < width; ++x) {
                     const float value = pixel(x, y);
                     rgb.insert(rgb.end(), {value, 0.5f * value, 2.f * value});
                 }
             }
-            const ImageInfiniteLight light = ImageInfiniteLight::make(rgb, n, kTestRadiance, m, c.lights.tables);
+            const ImageInfiniteLight light =
+                ImageInfiniteLight::make(map, rgb, width, n, kTestRadiance, m, c.lights.tables);
             c.lights.add(light);
             c.meet = meetInfinity;
             cases.push_back(std::move(c));
         };
-        add("of one pixel", 1, Matrix4{}, [](auto, auto) { return 1.f; });
-        add("with a bright pixel", 8, rotation(50, 1, 1, 0),
-            [](auto x, auto y) { return x == 2 && y == 5 ? 100.f : 1.f; });
-        add("half black", 5, rotation(-90, 1, 0, 0), [](auto x, auto y) { return y < 3 ? 0.f : float(x); });
-        add("mirrored", 6, scaling(1, -1, 1), [](auto x, auto y) { return float(x * x + y); });
+        const auto bright = [](auto x, auto y) { return x == 2 && y == 5 ? 100.f : 1.f; };
+        add("of one pixel", SkyMap::EqualArea, 1, Matrix4{}, [](auto, auto) { return 1.f; });
+        add("with a bright pixel", SkyMap::EqualArea, 8, rotation(50, 1, 1, 0), bright);
+        add("half black", SkyMap::EqualArea, 5, rotation(-90, 1, 0, 0),
+            [](auto x, auto y) { return y < 3 ? 0.f : float(x); });
+        add("mirrored", SkyMap::EqualArea, 6, scaling(1, -1, 1), [](auto x, auto y) { return float(x * x + y); });
+        add("by latitude, with a bright pixel", SkyMap::LatLong, 8, rotation(50, 1, 1, 0), bright);
+        add("by latitude, bright poles", SkyMap::LatLong, 7, rotation(20, 1, 0, 0),
+            [](auto x, auto y) { return y == 0 || y == 6 ? 30.f : float(x % 3); });
+        return cases;
+    }
+};
+
+template <>
+struct LightCases<PortalInfiniteLight> {
+    static std::vector<LightCase> make(double scale) {
+        std::vector<LightCase> cases;
+        // The window: 2 wide, 1 high, 1 above and turned a little; x of its frame along ex, y along ey, out is +z.
+        const auto add = [&](std::string name, Vec3d corner, Vec3d ex, Vec3d ey, std::size_t n, auto sky) {
+            LightCase c;
+            c.name = "infinite portal " + name;
+            corner = corner * scale, ex = ex * scale, ey = ey * scale;
+            c.lights.add(PortalInfiniteLight::make({corner, corner + ey, corner + ex + ey, corner + ex}, n, sky,
+                                                   c.lights.tables));
+            const auto window = meetPlane(c.from, corner, ex, ey,
+                                          [](double a, double b) { return a >= 0 && a <= 1 && b >= 0 && b <= 1; });
+            c.meet = [=](const Vec3d& w) {
+                std::vector<LightHit<float>> hits = window(w);
+                for (LightHit<float>& hit : hits)
+                    hit = {c.from, {}, rounded(w)};
+                return hits;
+            };
+            cases.push_back(std::move(c));
+        };
+        const auto plain = [](Vec3d) { return kTestRadiance; };
+        const auto striped = [](Vec3d w) { return kTestRadiance * float(std::sin(9 * w.x) > 0.3 ? 0 : 1 + w.y * w.y); };
+        const auto sunny = [](Vec3d w) {
+            return kTestRadiance * (length(w - normalized({0.3, 0.2, 1})) < 0.1 ? 50.f : 1.f);
+        };
+        add("plain", {-1, -0.5, 1}, {2, 0, 0}, {0, 1, 0}, 64, plain);
+        add("of one pixel", {-0.3, 0.2, 0.7}, {1, 0.2, 0}, {-0.1, 0.5, 0}, 1, plain);
+        add("within one pixel", {0.1, 0.2, 3}, {0.1, 0, 0}, {0, 0.2, 0}, 8, plain);
+        add("striped, beside", {0.5, -0.5, 0.6}, {2, 0, 0.3}, {0, 1, 0}, 64, striped);
+        add("with a sun", {-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, 128, sunny);
         return cases;
     }
 };

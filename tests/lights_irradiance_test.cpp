@@ -145,10 +145,42 @@ TEST(LightsIrradiance, Skies) {
     std::vector<float> rgb(64 * 64 * 3, 0.f);
     rgb[(20 * 64 + 38) * 3] = 1.f;
     const Matrix4 m = rotation(-90, 1, 0, 0);
-    image.add(ImageInfiniteLight::make(rgb, 64, kOne, m, image.tables));
+    image.add(ImageInfiniteLight::make(SkyMap::EqualArea, rgb, 64, 64, kOne, m, image.tables));
     const Vec3<float> d = equalAreaDirection<float>({38.5f / 64, 20.5f / 64});
     EXPECT_NEAR(irradiance(image, {}, transformVector(m, widened(d))), 4 * kPiD / (64 * 64),
                 1e-3 * 4 * kPiD / (64 * 64));
+}
+
+/// The constant sky and a bright cap round the pole, by latitude and longitude.
+TEST(LightsIrradiance, SkiesByLatitude) {
+    LightTable constant;
+    constant.add(ImageInfiniteLight::make(SkyMap::LatLong, std::vector<float>(3 * 16 * 8, 1.f), 16, 8, kOne, Matrix4{},
+                                          constant.tables));
+    EXPECT_NEAR(irradiance(constant, {}, kUp), kPiD, 1e-3);
+    EXPECT_NEAR(constant.rows<ImageInfiniteLight>()[0].mean, 1, 1e-6);
+
+    // The top row of eight reaches to pi / 8 from +z, which is turned to +y.
+    LightTable cap;
+    std::vector<float> rgb(3 * 16 * 8, 0.f);
+    std::fill_n(rgb.begin(), 3 * 16, 1.f);
+    cap.add(ImageInfiniteLight::make(SkyMap::LatLong, rgb, 16, 8, kOne, rotation(-90, 1, 0, 0), cap.tables));
+    EXPECT_NEAR(irradiance(cap, {}, {0, 1, 0}), kPiD * std::pow(std::sin(kPiD / 8), 2), 1e-4);
+}
+
+/// Rows from +z, columns from +x towards +y.
+TEST(LightsIrradiance, SkiesByLatitudeStandUpright) {
+    LightTable lights;
+    std::vector<float> rgb;
+    for (int i = 0; i < 4 * 2; ++i)
+        rgb.insert(rgb.end(), {float(i + 1), 0.f, 0.f});
+    lights.add(ImageInfiniteLight::make(SkyMap::LatLong, rgb, 4, 2, kOne, Matrix4{}, lights.tables));
+    const auto look = [&](Vec3d w) { return evaluateLight<float>(lights, 0, {{}, {}, rounded(normalized(w))}).L.r; };
+    EXPECT_EQ(look({1, 0.5, 0.1}), 1.f);
+    EXPECT_EQ(look({-1, 0.5, 3}), 2.f);
+    EXPECT_EQ(look({-1, -0.5, 0.1}), 3.f);
+    EXPECT_EQ(look({0.2, -0.5, 0.1}), 4.f);
+    EXPECT_EQ(look({1, 0.5, -0.1}), 5.f);
+    EXPECT_EQ(look({0.2, -0.5, -9}), 8.f);
 }
 
 TEST(LightsIrradiance, DeltaLights) {

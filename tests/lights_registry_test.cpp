@@ -165,7 +165,7 @@ TEST(LightsRegistry, ImagesAnswerByTheNearestPixel) {
         rgb[3 * i] = float(i + 1);
     rgb[3 * 15] = -1.f;
     rgb[3 * 14] = std::numeric_limits<float>::quiet_NaN();
-    table.add(ImageInfiniteLight::make(rgb, 4, kWhite * 2.f, Matrix4{}, table.tables));
+    table.add(ImageInfiniteLight::make(SkyMap::EqualArea, rgb, 4, 4, kWhite * 2.f, Matrix4{}, table.tables));
     const auto look = [&](float s, float t) {
         return evaluateLight<float>(table, 0, {{}, {}, equalAreaDirection<float>({s, t})});
     };
@@ -178,11 +178,12 @@ TEST(LightsRegistry, ImagesAnswerByTheNearestPixel) {
     }
     const double sum = 14 * 15 / 2;
     EXPECT_NEAR(look(0.26f, 0.01f).pdf, 2 / sum * 16 / (4 * std::numbers::pi), 1e-6);
-    EXPECT_THROW(ImageInfiniteLight::make(rgb, 0, kWhite, Matrix4{}, table.tables), Error);
-    EXPECT_THROW(ImageInfiniteLight::make(rgb, 4, kWhite, scaling(1, 0, 1), table.tables), Error);
+    EXPECT_THROW(ImageInfiniteLight::make(SkyMap::EqualArea, rgb, 0, 4, kWhite, Matrix4{}, table.tables), Error);
+    EXPECT_THROW(ImageInfiniteLight::make(SkyMap::EqualArea, rgb, 4, 4, kWhite, scaling(1, 0, 1), table.tables), Error);
 
     LightTable black;
-    black.add(ImageInfiniteLight::make(std::vector<float>(12, 0.f), 2, kWhite, Matrix4{}, black.tables));
+    black.add(
+        ImageInfiniteLight::make(SkyMap::LatLong, std::vector<float>(12, 0.f), 2, 2, kWhite, Matrix4{}, black.tables));
     EXPECT_FALSE(sampleLight<float>(black, 0, {}, {0.3f, 0.3f}).valid);
     EXPECT_TRUE(LightSampler(LightSelection::Power, black, true).empty());
 }

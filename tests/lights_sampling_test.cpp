@@ -213,6 +213,7 @@ LightTable everyLight(bool classic) {
             const std::uint32_t shift = std::uint32_t(table.tables.numbers.size());
             if constexpr (requires { light.pixels; }) light.pixels += shift;
             if constexpr (requires { light.distribution; }) light.distribution += shift;
+            if constexpr (requires { light.sums; }) light.sums += shift;
             if constexpr (requires { light.picture; }) light.picture += std::uint32_t(table.tables.pictures.size());
             for (EmissionPicture picture : c.lights.tables.pictures) {
                 picture.firstPixel += shift;

@@ -162,7 +162,7 @@ TEST(AreaLights, AlphaWithoutALightLeavesTheShapeOut) {
     const BuiltScene gone = buildWorld("LightSource \"point\" Shape \"disk\" \"float alpha\" 0");
     EXPECT_TRUE(gone.scene.geometry.shapes.empty());
     const BuiltScene half = buildWorld("LightSource \"point\" Shape \"disk\" \"float alpha\" 0.5");
-    EXPECT_TRUE(half.warnsOf("an alpha between 0 and 1 is not there yet and counts as 1"));
+    EXPECT_TRUE(half.warnings.all().empty());
     EXPECT_EQ(half.scene.geometry.shapes.size(), 1u);
 }
 
@@ -227,7 +227,7 @@ TEST(LightSources, ConstantInfiniteLight) {
 TEST(LightSources, ImageInfiniteLight) {
     const TemporaryFolder folder;
     folder.file("sky.pfm", pfm(32, 32, {1, 2, 3}));
-    folder.file("wide.pfm", pfm(32, 16, {1, 2, 3}));
+    folder.file("wide.pfm", pfm(32, 17, {1, 2, 3}));
     const auto radiance = [&](const std::string& parameters) {
         const BuiltScene built =
             buildWorld("LightSource \"infinite\" \"string filename\" \"sky.pfm\" " + parameters, folder.path(""));
@@ -244,9 +244,83 @@ TEST(LightSources, ImageInfiniteLight) {
     };
     const std::string wide = error("\"string filename\" \"wide.pfm\"");
     EXPECT_EQ(wide.rfind("test.pbrt:2:2: light 'infinite': the image ", 0), 0u) << wide;
-    EXPECT_NE(wide.find("32 x 16"), std::string::npos) << wide;
+    EXPECT_NE(wide.find("32 x 17"), std::string::npos) << wide;
     EXPECT_NE(error("\"string filename\" \"sky.pfm\" \"rgb L\" [1 1 1]").find("not both"), std::string::npos);
     EXPECT_NE(error("\"string filename\" \"no.exr\"").find("no.exr"), std::string::npos);
+}
+
+TEST(LightSources, SkiesByLatitude) {
+    const TemporaryFolder folder;
+    folder.file("sky.pfm", pfm(64, 32, {1, 2, 3}));
+    folder.file("odd.pfm", pfm(40, 32, {1, 2, 3}));
+    const auto build = [&](const std::string& parameters) {
+        return buildWorld("LightSource \"infinite\" " + parameters, folder.path(""));
+    };
+    const auto radiance = [](const BuiltScene& built) {
+        return evaluateLight<float>(built.scene.lights, 0u, {{}, {}, {0, 0.6f, 0.8f}}).L.b;
+    };
+    const BuiltScene guessed = build("\"string filename\" \"sky.pfm\"");
+    EXPECT_TRUE(guessed.warnsOf("twice as wide as high"));
+    EXPECT_EQ(onlyLight<ImageInfiniteLight>(guessed).map, SkyMap::LatLong);
+    EXPECT_FLOAT_EQ(radiance(guessed), 3);
+    const BuiltScene said = build("\"string filename\" \"odd.pfm\" \"string mapping\" \"latlong\"");
+    EXPECT_TRUE(said.warnings.all().empty());
+    EXPECT_EQ(onlyLight<ImageInfiniteLight>(said).height, 32u);
+    const float luminance = 0.2126f * 1 + 0.7152f * 2 + 0.0722f * 3;
+    EXPECT_NEAR(
+        radiance(build("\"string filename\" \"odd.pfm\" \"string mapping\" \"latlong\" \"float illuminance\" 1")),
+        3 * 2 / (std::numbers::pi_v<float> * luminance), 5e-3);
+    const auto error = [&](const std::string& parameters) {
+        return errorOf("WorldBegin\nLightSource \"infinite\" " + parameters, {}, folder.path(""));
+    };
+    EXPECT_NE(error("\"string filename\" \"sky.pfm\" \"string mapping\" \"equalarea\"").find("64 x 32"),
+              std::string::npos);
+    EXPECT_NE(error("\"string filename\" \"sky.pfm\" \"string mapping\" \"latlon\"").find("did you mean 'latlong'"),
+              std::string::npos);
+}
+
+TEST(LightSources, PortalsShowTheSkyBehindThem) {
+    const TemporaryFolder folder;
+    // By latitude, columns of a quarter turn: red from +x to +y of the light, then green, blue, white.
+    std::string image = "PF\n4 2\n-1.0\n";
+    for (int row = 0; row < 2; ++row)
+        for (const Rgb c : {Rgb{1, 0, 0}, Rgb{0, 1, 0}, Rgb{0, 0, 1}, Rgb{1, 1, 1}})
+            for (const float v : {c.r, c.g, c.b})
+                image.append(reinterpret_cast<const char*>(&v), sizeof v);
+    folder.file("sky.pfm", image);
+    const auto built = [&](const std::string& parameters, const std::string& before = "") {
+        return buildWorld(before + "LightSource \"infinite\" " + parameters, folder.path(""));
+    };
+    // A window in the plane x = 2, from y, z = -1 to 1. Out is +x: x of the frame is +y, y of it +z.
+    const std::string portal = "\"point3 portal\" [2 -1 -1  2 -1 1  2 1 1  2 1 -1]";
+    const auto look = [](const BuiltScene& scene, Vec3<float> from, Vec3<float> w) {
+        return evaluateLight<float>(scene.scene.lights, 0u, {from, {}, normalize(w)}).L;
+    };
+    const BuiltScene plain = built("\"rgb L\" [1 2 3] \"float scale\" 2 " + portal, "Translate 9 9 9 Scale 3 3 3 ");
+    EXPECT_EQ(onlyLight<PortalInfiniteLight>(plain).width, 2.f);
+    EXPECT_FLOAT_EQ(look(plain, {0, 0, 0}, {2, 0.9f, 0.9f}).g, 4);
+    EXPECT_EQ(look(plain, {0, 0, 0}, {2, 1.1f, 0}).g, 0) << "past its edge";
+    EXPECT_FLOAT_EQ(look(plain, {0, 5, 0}, {2, -5, 0}).g, 4);
+    EXPECT_EQ(look(plain, {3, 0, 0}, {1, 0, 0}).g, 0) << "outside of the room";
+    EXPECT_EQ(look(plain, {3, 0, 0}, {-1, 0, 0}).g, 0) << "from behind";
+
+    const std::string sky = "\"string filename\" \"sky.pfm\" \"string mapping\" \"latlong\" " + portal;
+    const BuiltScene upright = built(sky);
+    EXPECT_FLOAT_EQ(look(upright, {0, -1, 0}, {2, 1.9f, 0.1f}).r, 1);  // 43 degrees from +x: the middle of the red
+    EXPECT_NEAR(look(upright, {0, -1, 0}, {2, 1.9f, 0.1f}).g, 0, 0.1);
+    EXPECT_FLOAT_EQ(look(upright, {0, 1, 0}, {2, -1.9f, 0.1f}).g, 1);  // the white
+    // The light turned by 90 degrees about z: what was red is now from +y to -x, and white where red was.
+    EXPECT_NEAR(look(built(sky, "Rotate 90 0 0 1 "), {0, -1, 0}, {2, 1.9f, 0.1f}).g, 1, 0.1);
+
+    EXPECT_NE(
+        errorOf("WorldBegin LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0]").find("four points, 6 numbers"),
+        std::string::npos);
+    EXPECT_NE(
+        errorOf("WorldBegin LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 2 0]").find("rectangle"),
+        std::string::npos);
+    EXPECT_NE(
+        errorOf("WorldBegin LightSource \"infinite\" \"point3 portal\" [0 0 0 0 0 0 0 0 0 0 0 0]").find("rectangle"),
+        std::string::npos);
 }
 
 /// The intensity towards w of the only light, which is at the point p.

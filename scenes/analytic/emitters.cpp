@@ -276,6 +276,28 @@ AnalyticScene mapScene() {
     return s;
 }
 
+/// The top row of an image by latitude and longitude: a cap of pi / 8 round the zenith.
+AnalyticScene latLongScene() {
+    std::vector<std::array<float, 3>> pixels(16 * 8, {0.f, 0.f, 0.f});
+    std::fill_n(pixels.begin(), 16, std::array{1.f, 1.f, 1.f});
+    AnalyticScene s = point("L6 latitude", "image sky by latitude and longitude: a cap of 22.5 degrees, E = pi sin^2",
+                            "LightSource \"infinite\" \"string filename\" \"cap.pfm\" \"string mapping\" \"latlong\"\n",
+                            kPi * std::pow(std::sin(kPi / 8), 2));
+    s.files = {{"cap.pfm", pfmImage(16, 8, pixels)}};
+    return s;
+}
+
+/// A sky that comes through a window alone is a lamp of the window's size.
+void addPortal(std::vector<AnalyticScene>& scenes) {
+    const AnalyticScene window =
+        point("L10", "constant sky through a portal 2 x 2 at height 1: as B7b",
+              "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ] \"point3 portal\" [ -1 -1 1  -1 1 1  1 1 1  1 -1 1 ]\n",
+              4 * underCorner(1, 1));
+    scenes.push_back(window);
+    scenes.push_back(with(AnalyticScene::Strategy::LightSampling, window));
+    scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, window));
+}
+
 /// Point, distant and infinite lights: one direction or none to choose, so nothing is random.
 void addLightsOfOneDirection(std::vector<AnalyticScene>& scenes) {
     const auto add = [&](AnalyticScene s) {
@@ -306,6 +328,7 @@ void addLightsOfOneDirection(std::vector<AnalyticScene>& scenes) {
     scenes.push_back(
         point("L5", "constant sky of illuminance 1", "LightSource \"infinite\" \"float illuminance\" [ 1 ]\n", 1));
     scenes.push_back(mapScene());
+    scenes.push_back(latLongScene());
 
     AnalyticScene floor = point("B19",
                                 "point light of intensity 1 at height 1 over the centre of a 2 x 2 floor: mean E = "
@@ -427,6 +450,7 @@ std::vector<AnalyticScene> analyticEmitters() {
     addPicture(scenes);
     addManyLights(scenes);
     addSky(scenes);
+    addPortal(scenes);
     addLightsOfOneDirection(scenes);
     addFormFactors(scenes);
     return scenes;

@@ -28,6 +28,8 @@ struct LightImage {
     /// Reads the file; errors get the place and the owner.
     LightImage(const std::string& file, SourcePosition where, const std::string& owner, BuildContext& context,
                Space space = Space::Film);
+    /// The colour of a unit direction, between pixels, in an image of all directions.
+    Rgb sky(SkyMap map, Vec3d direction) const;
     /// The mean over all pixels of the luminance times weight(u, v) of the pixel's middle, in [0, 1]^2.
     template <class Weight>
     double meanLuminance(const ColorSpace& film, Weight&& weight) const;

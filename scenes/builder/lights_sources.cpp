@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <functional>
 
 namespace penumbra::builder {
 namespace {
@@ -93,13 +95,13 @@ public:
 
     void addInfinite() {
         const std::string file = parameters_.text("filename", "");
-        if (const Parameter* portal = parameters_.find("point3", "portal"))
-            context_.warnOnce("portal", portal->where,
-                              owner_ + ": portals are not there yet; the light comes from everywhere");
         const float illuminance = number("illuminance", 0);
         if (!file.empty()) return addImage(file, illuminance);
-        const Rgb radiance = spectrum("L") * scale() * (illuminance > 0 ? illuminance / kPi : 1.f);
-        lights_.add(ConstantInfiniteLight{toSpectrum(checked(radiance))});
+        const Rgb radiance = checked(spectrum("L") * scale() * (illuminance > 0 ? illuminance / kPi : 1.f));
+        if (const Parameter* portal = parameters_.find("point3", "portal"))
+            // The image is of one colour, and fine enough to know how much its pixels cover.
+            return addPortal(*portal, 64, [&](Vec3d) { return toSpectrum(radiance); });
+        lights_.add(ConstantInfiniteLight{toSpectrum(radiance)});
     }
 
     void finish() { context_.warnUnused(parameters_, owner_); }
@@ -117,31 +119,77 @@ private:
 
     LightImage squareImage(const std::string& file, LightImage::Space space) const {
         LightImage image = readFile(file, space);
-        if (image.width != image.height)
-            fail(
-                fmt::format("the image {} has {} x {} pixels; it has to be square, in the equal-area octahedral map "
-                            "(imgtool of pbrt makes one of a latitude-longitude map)",
-                            quote(file, 200), image.width, image.height));
+        if (image.width != image.height) failOfShape(file, image);
         return image;
+    }
+    [[noreturn]] void failOfShape(const std::string& file, const LightImage& image) const {
+        fail(fmt::format(
+            "the image {} has {} x {} pixels; it has to be square, in the equal-area octahedral map (imgtool "
+            "of pbrt makes one of a latitude-longitude map)",
+            quote(file, 200), image.width, image.height));
+    }
+
+    /// The format knows square images only. One of 2:1 can hardly be meant otherwise than by latitude and longitude.
+    SkyMap skyMap(const std::string& file, const LightImage& image) const {
+        const std::vector<std::string> known{"equalarea", "latlong"};
+        const std::string mapping = parameters_.text("mapping", "");
+        if (mapping == "latlong") return SkyMap::LatLong;
+        if (!mapping.empty() && mapping != "equalarea")
+            context_.fail(parameters_.findAny("mapping")->where,
+                          "unknown mapping " + quote(mapping) + suggestion(mapping, known));
+        if (mapping.empty() && image.width == 2 * image.height) {
+            context_.warnOnce("latlong", light_.where,
+                              owner_ +
+                                  ": an image twice as wide as high is taken to go by latitude and longitude; "
+                                  "\"string mapping\" \"latlong\" says so");
+            return SkyMap::LatLong;
+        }
+        if (image.width != image.height) failOfShape(file, image);
+        return SkyMap::EqualArea;
     }
 
     void addImage(const std::string& file, float illuminance) {
         if (BuildContext::findSpectrum(parameters_, "L")) fail("takes either L or an image, not both");
-        const LightImage image = squareImage(file, LightImage::Space::Film);
+        const LightImage image = readFile(file);
+        const SkyMap map = skyMap(file, image);
         float size = 1;
         if (illuminance > 0) {
-            // The format divides by half of the true illuminance of an upward surface.
-            const double upward = kTwoPi * luminance(image, [&](double s, double t) {
-                                      return std::fmax(equalAreaDirection(Vec2<float>{float(s), float(t)}).z, 0.f);
-                                  });
+            // The format divides by half of the true illuminance of an upward surface: 2 pi times the mean, over all
+            // directions, of what comes from above.
+            const double upward =
+                kTwoPi * luminance(image, [&](double s, double t) {
+                    if (map == SkyMap::LatLong)  // pi / 2 sin is the solid angle of a pixel over the mean one
+                        return std::fmax(std::cos(kPi * t), 0.) * std::sin(kPi * t) * (kPi / 2);
+                    return double(std::fmax(equalAreaDirection(Vec2<float>{float(s), float(t)}).z, 0.f));
+                });
             if (!(upward > 0)) fail("an illuminance needs an image that is not black above the horizon");
             size = float(illuminance / upward);
         }
         const Rgb factor = checked(Rgb{1, 1, 1} * (scale() * size));
+        if (const Parameter* portal = parameters_.find("point3", "portal")) {
+            Matrix4 toLight;
+            if (!invert(light_.lightToWorld, toLight)) fail("its matrix is singular");
+            return addPortal(*portal, image.height, [&](Vec3d w) {
+                const Vec3d d = transformVector(toLight, w);
+                const double length = std::hypot(d.x, d.y, d.z);
+                return toSpectrum(image.sky(map, {d.x / length, d.y / length, d.z / length}) * factor.r);
+            });
+        }
         add([&] {
-            return ImageInfiniteLight::make(image.rgb, image.width, toSpectrum(factor), light_.lightToWorld,
-                                            lights_.tables);
+            return ImageInfiniteLight::make(map, image.rgb, image.width, image.height, toSpectrum(factor),
+                                            light_.lightToWorld, lights_.tables);
         });
+    }
+
+    /// The corners are given in the world, whatever the light's matrix.
+    void addPortal(const Parameter& portal, std::size_t resolution, const std::function<Spectrum<float>(Vec3d)>& sky) {
+        const std::vector<float>& v = portal.floats();
+        if (v.size() != 12)
+            context_.fail(portal.where, fmt::format("a portal needs four points, {} numbers are given", v.size()));
+        std::array<Vec3d, 4> corners;
+        for (std::size_t i = 0; i < 4; ++i)
+            corners[i] = {v[3 * i], v[3 * i + 1], v[3 * i + 2]};
+        add([&] { return PortalInfiniteLight::make(corners, resolution, sky, lights_.tables); });
     }
 
     /// The mean over the image's pixels of the luminance times a weight of the pixel's middle, in [0, 1]^2.

@@ -60,11 +60,11 @@ std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePl
     if (out.material.needsTangent) out.record.flags |= kShapeNeedsTangent;
     if (flipsNormal(shape, place)) out.record.flags |= kShapeFlipNormal;
     readAlpha(shape, out.record);
+    readEmission(shape, place, out);
     const bool isThere = isQuadric(shape)        ? buildQuadric(shape, place, out)
                          : shape.type == "curve" ? buildCurves(shape, place, out)
                                                  : buildMesh(shape, place, out);
     readMedia(shape, out);
-    readEmission(shape, place, out);
     context_.warnUnused(shape.parameters, owner);
     if (!isThere || (out.record.flags & kShapeInvisible && !out.emission)) return std::nullopt;
     return out;
@@ -99,7 +99,8 @@ bool ShapeBuilder::buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltS
         meshFacts_->push_back({context_.position(shape.where), shape.type,
                                topologyOf(weldedIndices(mesh.indices, mesh.positions), mesh.vertexCount())});
     mesh.faceIndices = {};
-    if (!(out.record.flags & (kShapeNeedsUv | kShapeNeedsTangent))) mesh.uvs = {};
+    const bool needsUv = out.record.flags & (kShapeNeedsUv | kShapeNeedsTangent);
+    if (!needsUv && !(out.emission && out.emission->picture)) mesh.uvs = {};
     if (!(out.record.flags & kShapeNeedsTangent)) mesh.tangents = {};
     if (!(place.groupFromObject == Matrix4{})) transform(mesh, place.groupFromObject);
     if (shape.reverseOrientation)
