@@ -67,12 +67,21 @@ AnalyticScene exactly(AnalyticScene scene) {
     return scene;
 }
 
+/// R0 + (1 - R0) (1 - cos)^5.
+double schlick(double cosine, double perpendicular) {
+    return perpendicular + (1 - perpendicular) * std::pow(1 - cosine, 5);
+}
+
 void addConductors(std::vector<AnalyticScene>& scenes) {
     const std::string metal = "Material \"conductor\" \"rgb eta\" [ .2 .2 .2 ] \"rgb k\" [ 3 3 3 ]\n";
     scenes.push_back(
         exactly(underSky("F11", "smooth conductor of index .2 + 3i, normal incidence", metal, 1, fresnel(1, {.2, 3}))));
     scenes.push_back(exactly(underSky("F11 slanted", "the same at 75 degrees", metal, std::cos(75 * kPi / 180),
                                       fresnel(std::cos(75 * kPi / 180), {.2, 3}))));
+    scenes.push_back(exactly(underSky("F11 Schlick", "the same by Schlick's approximation, at 60 degrees",
+                                      "Material \"conductor\" \"rgb eta\" [ .2 .2 .2 ] \"rgb k\" [ 3 3 3 ] "
+                                      "\"string fresnel\" \"schlick\"\n",
+                                      .5, schlick(.5, fresnel(1, {.2, 3})))));
     AnalyticScene coloured =
         exactly(underSky("F12", "smooth conductor given by its reflectance (.3, .5, .7), normal incidence",
                          "Material \"conductor\" \"rgb reflectance\" [ .3 .5 .7 ]\n", 1, 0));
@@ -104,6 +113,15 @@ void addMicrofacets(std::vector<AnalyticScene>& scenes) {
     add(.6, .2, .5, "", .765985);
     add(.6, .2, .5, "Rotate 90 0 0 1\n", .710240);
 
+    for (const double alpha : {.1, .5, 1.})
+        scenes.push_back(underSky(fmt::format("G multiscatter {}", alpha),
+                                  "GGX mirror with multiscatter under a sky of radiance 1: all of it",
+                                  fmt::format("Material \"conductor\" \"rgb eta\" [ 1 1 1 ] \"rgb k\" [ 1000 1000 1000 ] "
+                                              "\"bool remaproughness\" false \"float roughness\" [ {} ] "
+                                              "\"bool multiscatter\" true\n",
+                                              alpha),
+                                  .5, 1));
+
     scenes.push_back(underSky("G glass", "rough glass boundary, alpha .5, at 60 degrees from outside: R + T / n^2",
                               dielectric("\"bool remaproughness\" false \"float roughness\" [ .5 ]"), .5, .421134));
     scenes.push_back(underSky(
@@ -123,6 +141,19 @@ void addBoundaries(std::vector<AnalyticScene>& scenes) {
                                    cosine, fresnel(cosine, kIor), 3);
         s.samplesPerPixel = 1024;
         scenes.push_back(s);
+    }
+}
+
+/// Schlick's approximation, from outside and, at the angle inside that belongs to it, from inside.
+void addSchlickBoundaries(std::vector<AnalyticScene>& scenes) {
+    const std::string floor = scoped(black() + rectangleZ(-50, 50, -50, 50, -.5, Facing::Positive));
+    const double outside = .4, inside = std::sqrt(1 - (1 - outside * outside) / (kIor * kIor));
+    for (const bool fromInside : {false, true}) {
+        scenes.push_back(underSky(fromInside ? "F1 Schlick inside" : "F1 Schlick", "reflectance of glass by Schlick's approximation",
+                                  floor + dielectric("\"string fresnel\" \"schlick\"") +
+                                      (fromInside ? "ReverseOrientation\n" : ""),
+                                  fromInside ? inside : outside, schlick(outside, fresnel(1, kIor)), 3));
+        scenes.back().samplesPerPixel = 1024;
     }
 }
 
@@ -311,6 +342,7 @@ std::vector<AnalyticScene> analyticMaterials() {
     addConductors(scenes);
     addMicrofacets(scenes);
     addBoundaries(scenes);
+    addSchlickBoundaries(scenes);
     addSlabs(scenes);
     addDiffuseFresnel(scenes);
     addCoats(scenes);
