@@ -12,6 +12,7 @@
 #pragma once
 
 #include "core/geometry/surface_point.h"
+#include "integrators/first_surface.h"
 #include "integrators/path_batch.h"
 
 #include <algorithm>
@@ -256,7 +257,12 @@ private:
             if (first) scatter(batch_.slots.covered, g.slot, UInt<F>(1u));
             counts_.groups += 1;
             counts_.liveLanes += std::uint64_t(n);
-            shader_.template shade<F, M>(step, g, detail::gatherHit<F>(batch_.hits, at), gather(batch_.key, at));
+            const Hit<F> hit = detail::gatherHit<F>(batch_.hits, at);
+            const UInt<F> material = gather(batch_.key, at);
+            if constexpr (!M::kPassThrough)
+                if (!film_.aovs().empty()) [[unlikely]]
+                    recordFirstSurface<F>(scene_, batch_.slots, g, hit, material, kTagOf<M, MaterialTypes>, film_);
+            shader_.template shade<F, M>(step, g, hit, material);
         }
     }
 

@@ -36,7 +36,8 @@ void buildWorld(SceneDescription& description, const BuildOptions& options, Buil
     MaterialLibrary materials(description, context, textures, scene.materials);
     MediumLibrary media(description, context, scene.media);
     AreaLightLibrary areaLights(description, context, scene.lights.tables);
-    ShapeBuilder shapes(context, textures, materials, media, areaLights, options.meshFacts);
+    ShapeBuilder shapes(context, textures, materials, media, areaLights, scene.film.aovs.has(Aov::Uv),
+                        options.meshFacts);
     WorldBuilder world(context, shapes, scene);
     scene.cameraMedium = media.row(description.camera.medium, description.camera.where);
     world.add(description);

@@ -45,9 +45,10 @@ struct BuildOptions {
     std::optional<Strategy> strategy;
     std::optional<LightSelection> lightSelection;
     bool classicArea = false;  ///< --light-sampling area
+    std::optional<AovSet> aovs;  ///< --aov, for the film's own
+    std::optional<float> clamp;  ///< limit on a sample's components (--clamp) for the film's own; infinity: none
 
     std::vector<MeshFacts>* meshFacts = nullptr;  ///< where given, gets an entry for every mesh
-    std::optional<float> clamp;  ///< limit on a sample's components (--clamp) for the film's own; infinity: none
 };
 
 Scene buildScene(SceneDescription description, const BuildOptions& options, Warnings& warnings);

@@ -33,6 +33,8 @@ struct FilmSettings {
     std::string colorSpace = "srgb";
     std::array<float, 9> sensorFromFilm{1, 0, 0, 0, 1, 0, 0, 0, 1};   ///< row by row: white balance times imaging ratio
     float maxComponent = kInfinity;                                   ///< of a sample, which is scaled down to it: a bias
+    AovSet aovs;                                                      ///< what is kept beside the picture
+    bool aovsInCameraSpace = false;                                   ///< N, Ns and P; else in the world
     bool isIdentity() const { return sensorFromFilm == std::array<float, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1} && maxComponent == kInfinity; }
 };
 

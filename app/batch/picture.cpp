@@ -22,13 +22,21 @@ bool isSpecialFile(const std::string& path) {
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-bool isExr(const std::string& path) {
-    if (imageFileKind(path) != ImageFileKind::Unknown) return false;
-    return extensionOf(path) == "exr" || isSpecialFile(path);
-}
-
 std::size_t pixelNumber(const CropWindow& crop, int x, int row) {
     return std::size_t(row) * std::size_t(crop.width()) + std::size_t(x);
+}
+
+/// In the order in which a film gives them.
+std::vector<std::string> aovChannels(const AovSet& set) {
+    std::vector<std::string> names;
+    for (const AovKind& kind : aovKinds()) {
+        if (!set.has(kind.aov)) continue;
+        const std::string name(kind.name);
+        if (kind.suffixes.empty()) names.push_back(name);
+        for (const char suffix : kind.suffixes)
+            names.push_back(name + "." + suffix);
+    }
+    return names;
 }
 
 void writeExrPicture(const RenderJob& job, const std::string& path) {
@@ -40,27 +48,41 @@ void writeExrPicture(const RenderJob& job, const std::string& path) {
     header.displayWindow = {0, 0, settings.width, settings.height};
     header.channels = {{"R", Type::Float},    {"G", Type::Float},    {"B", Type::Float},    {"A", Type::Float},
                        {"SE.R", Type::Float}, {"SE.G", Type::Float}, {"SE.B", Type::Float}, {"samples", Type::Uint}};
+    const std::size_t firstAov = header.channels.size();
+    for (const std::string& name : aovChannels(settings.aovs))
+        header.channels.push_back({name, Type::Float});
     header.colorSpace = findColorSpace(settings.colorSpace);
     header.attributes = {{"penumbra", recipeJson(job)}, {"samplesPerPixel", job.scene().samplesPerPixel}};
+    std::vector<float> aovs(header.channels.size() - firstAov);
     writeExr(path, header, [&](const ExrBlock& block) {
         std::size_t to = 0;
         for (int row = block.firstRow; row < block.firstRow + block.rows; ++row)
             for (int x = 0; x < crop.width(); ++x, ++to) {
-                const PixelEstimate e = job.film().estimate(pixelNumber(crop, x, row - crop.y0));
+                const std::size_t pixel = pixelNumber(crop, x, row - crop.y0);
+                const PixelEstimate e = job.film().estimate(pixel);
                 for (std::size_t c = 0; c < 3; ++c) {
                     block.floats[c][to] = float(e.mean[c]);
                     block.floats[4 + c][to] = float(e.standardError[c]);
                 }
                 block.floats[3][to] = float(e.alpha);
                 block.uints[7][to] = e.samples;
+                if (aovs.empty()) continue;
+                job.film().estimateAovs(pixel, aovs);
+                for (std::size_t c = 0; c < aovs.size(); ++c)
+                    block.floats[firstAov + c][to] = aovs[c];
             }
     });
 }
 
 }  // namespace
 
+bool isExrPath(const std::string& path) {
+    if (imageFileKind(path) != ImageFileKind::Unknown) return false;
+    return extensionOf(path) == "exr" || isSpecialFile(path);
+}
+
 std::string RenderJob::writePicture(const std::string& path) const {
-    if (isExr(path)) {
+    if (isExrPath(path)) {
         writeExrPicture(*this, path);
         return "";
     }
@@ -83,7 +105,7 @@ void checkPicturePath(const std::string& path) {
     std::error_code ignored;
     if (path.empty() || fs::is_directory(path, ignored))
         throw Error(ErrorKind::CannotCreate, quote(path) + ": a picture needs the name of a file");
-    if (!isExr(path) && imageFileKind(path) == ImageFileKind::Unknown)
+    if (!isExrPath(path) && imageFileKind(path) == ImageFileKind::Unknown)
         throw Error(ErrorKind::Usage,
                     pathText(path) + ": unknown kind of picture; known extensions: exr, png, jpg, tif, hdr, pfm");
     const fs::path folder = fs::path(path).parent_path();

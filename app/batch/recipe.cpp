@@ -59,6 +59,7 @@ std::string repeatCommand(const RenderOptions& options) {
     if (b.classicArea) add("--light-sampling", lightSamplingName(true));
     if (b.intersection != IntersectionMode::Robust) add("--intersection", intersectionName(b.intersection));
     if (options.replicates != 1) add("--replicates", options.replicates);
+    if (b.aovs) add("--aov", b.aovs->empty() ? std::string("none") : fmt::format("{}", fmt::join(aovNames(*b.aovs), ",")));
     if (b.clamp) add("--clamp", *b.clamp == kInfinity ? std::string("off") : fmt::format("{}", *b.clamp));
     return command;
 }
@@ -101,6 +102,8 @@ std::string recipeJson(const RenderJob& job) {
         {"invalid_samples", job.counts().invalid},
         {"error", o.replicates == 1 ? "independent-sample estimate" : "spread of replicates"},
     };
+    if (!s.film.aovs.empty())
+        recipe["aovs"] = {{"names", aovNames(s.film.aovs)}, {"space", s.film.aovsInCameraSpace ? "camera" : "world"}};
     if (const ClampBias bias = clampBias(job); bias.limit < kInfinity)
         recipe["clamp"] = {{"limit", bias.limit}, {"samples", bias.samples}, {"mean_lost", bias.meanLost}, {"relative", bias.relative}};
     // A file name need not be UTF-8.

@@ -80,7 +80,7 @@ void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
                                           " replicates need at least as many samples per pixel, not " +
                                           std::to_string(scene_.samplesPerPixel));
     integrator_ = makeIntegrator(scene_);
-    film_ = Film(scene_.film.crop, options_.replicates, scene_.filter.normalization());
+    film_ = Film(scene_.film.crop, options_.replicates, scene_.filter.normalization(), scene_.film.aovs);
     progress_.samples = film_.pixelCount() * std::uint64_t(scene_.samplesPerPixel);
     warningCount_ = warnings.all().size();
     times_.build = secondsSince(start);

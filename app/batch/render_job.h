@@ -91,6 +91,9 @@ private:
     std::size_t warningCount_ = 0;
 };
 
+/// writePicture() writes an EXR there.
+bool isExrPath(const std::string& path);
+
 /// Throws what writing a picture there would: asked before a long render. Usage: unknown extension; CannotCreate: no
 /// such folder, a folder of that name, no permission. What stands there stays as it is.
 void checkPicturePath(const std::string& path);

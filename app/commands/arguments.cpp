@@ -166,10 +166,14 @@ void Arguments::choice(const std::string& names, std::vector<std::string> known,
     for (const std::string& name : known)
         all += (all.empty() ? "" : ", ") + name;
     text(names, "NAME", help + ": " + all, [=, set = std::move(set)](const std::string& value) {
-        if (std::find(known.begin(), known.end(), value) == known.end())
-            refuse(names, "unknown name " + quote(value) + suggestion(value, known));
+        checkName(names, value, known);
         set(value);
     });
+}
+
+void Arguments::checkName(const std::string& names, const std::string& value, const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), value) == known.end())
+        refuse(names, "unknown name " + quote(value) + suggestion(value, known));
 }
 
 void Arguments::real(const std::string& names, const std::string& valueName, double least, double most, float& value,
@@ -186,13 +190,18 @@ double Arguments::parseReal(const std::string& names, const std::string& text, d
     return number;
 }
 
-std::vector<std::string> Arguments::split(const std::string& names, const std::string& text, std::size_t count) {
+std::vector<std::string> Arguments::split(const std::string& text) {
     std::vector<std::string> words{""};
     for (const char c : text)
         if (c == ',')
             words.emplace_back();
         else
             words.back() += c;
+    return words;
+}
+
+std::vector<std::string> Arguments::split(const std::string& names, const std::string& text, std::size_t count) {
+    std::vector<std::string> words = split(text);
     if (words.size() != count)
         refuse(names,
                fmt::format("{} are {} values; {} are needed, with commas between", quote(text), words.size(), count));

@@ -58,11 +58,15 @@ public:
     void real(const std::string& names, const std::string& valueName, double least, double most, float& value,
               const std::string& help);
 
+    /// Error(Usage) naming the option and the nearest name where `value` is none of those known.
+    static void checkName(const std::string& names, const std::string& value, const std::vector<std::string>& known);
     /// `text` is a whole number in the range, else an error that names the option.
     static std::int64_t parseWhole(const std::string& names, const std::string& text, WholeRange range);
     /// A number in the range, likewise.
     static double parseReal(const std::string& names, const std::string& text, double least, double most);
-    /// The words between commas, as many as are asked for.
+    /// The words between commas.
+    static std::vector<std::string> split(const std::string& text);
+    /// As many as are asked for.
     static std::vector<std::string> split(const std::string& names, const std::string& text, std::size_t count);
     /// Two whole numbers with the separator between: "640x480".
     static std::pair<int, int> parsePair(const std::string& names, const std::string& text, char separator,

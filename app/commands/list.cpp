@@ -4,6 +4,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/console.h"
 #include "core/camera/registry.h"
+#include "core/film/aov.h"
 #include "core/film/filter.h"
 #include "core/image/texture_registry.h"
 #include "integrators/registry.h"
@@ -39,11 +40,15 @@ std::vector<PluginInfo> pluginsOf(TypeList<Ts...>) {
 }
 
 std::vector<Kind> kinds() {
-    const std::span<const PluginInfo> filters = filterPlugins();
-    return {{"integrators", pluginsOf(IntegratorTypes{})}, {"samplers", pluginsOf(SamplerTypes{})},
-            {"cameras", pluginsOf(CameraTypes{})},         {"filters", {filters.begin(), filters.end()}},
+    const std::span<const PluginInfo> filters = filterPlugins(), aovs = aovPlugins();
+    return {{"integrators", pluginsOf(IntegratorTypes{})},
+            {"samplers", pluginsOf(SamplerTypes{})},
+            {"cameras", pluginsOf(CameraTypes{})},
+            {"filters", {filters.begin(), filters.end()}},
             {"lights", lightPlugins()},
-            {"materials", materialPlugins()},              {"textures", pluginsOf(TextureTypes{})}};
+            {"materials", materialPlugins()},
+            {"textures", pluginsOf(TextureTypes{})},
+            {"aovs", {aovs.begin(), aovs.end()}}};
 }
 
 struct ListRequest {
@@ -115,7 +120,7 @@ Command addListCommand(CLI::App& program) {
     const auto request = std::make_shared<ListRequest>();
     Arguments arguments(command);
     arguments.positional("KIND", request->kind,
-                         "integrators, samplers, cameras, filters, lights, materials or textures (default: all)");
+                         "integrators, samplers, cameras, filters, lights, materials, textures or aovs (default: all)");
     arguments.positional("NAME", request->name, "one of them, with its parameters and their defaults");
     arguments.flag("--verbose", request->verbose, "parameters and their defaults of all");
     arguments.flag("--json", request->json, "everything as JSON");

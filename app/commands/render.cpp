@@ -84,6 +84,21 @@ std::array<int, 4> parseBounds(const std::string& text) {
     return bounds;
 }
 
+/// Names with commas between, "all", or "none".
+AovSet parseAovs(const std::string& text) {
+    std::vector<std::string> known{"all"};
+    for (const AovKind& kind : aovKinds())
+        known.emplace_back(kind.name);
+    AovSet set;
+    if (text == "none") return set;
+    for (const std::string& word : Arguments::split(text)) {
+        Arguments::checkName("--aov", word, known);
+        for (const AovKind& kind : aovKinds())
+            if (word == kind.name || word == "all") set.add(kind.aov);
+    }
+    return set;
+}
+
 /// A number above 0, or "off".
 float parseClamp(const std::string& text) {
     constexpr double kLeast = 1e-6, kMost = 1e9;
@@ -145,6 +160,7 @@ void reportPicture(const RenderJob& job, const std::string& path, const std::str
     printNote(fmt::format("wrote {}: {}x{}, {} sample{} per pixel in {:.2f} s; standard error (rms) {}", pathText(path),
                           crop.width(), crop.height(), samples, samples == 1 ? "" : "s", statistics.times.render,
                           errorText(statistics.error)));
+    if (!job.film().aovs().empty() && !isExrPath(path)) printWarning(pathText(path) + ": only an EXR holds AOVs");
     if (!through.empty()) printNote("colours went through " + through);
     if (statistics.clamp.samples) printNote(clampText(statistics.clamp));
 }
@@ -224,6 +240,10 @@ void addOutput(Arguments& arguments, RenderRequest& r) {
     arguments.text("-o,--outfile", "FILE",
                    "the picture: .exr with its error, or .png .jpg .tif .hdr .pfm (default: the film's filename)",
                    [&r](const std::string& t) { r.outfile = t; });
+    arguments.text("--aov", "NAMES",
+                   "more channels of an EXR, with commas between: albedo, N, Ns, P, Z, uv, time, or all (\"penumbra list "
+                   "aovs\" says what they are); none for the film's own",
+                   [&r](const std::string& t) { r.options.build.aovs = parseAovs(t); });
     arguments.flag("--quiet", r.quiet, "say nothing but errors");
     arguments.optionalText("--stats", "text", "json", r.statistics,
                            "what the render took: for people on standard error, as JSON on standard output");

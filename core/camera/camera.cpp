@@ -13,7 +13,13 @@ bool makeCamera(std::string_view name, CameraInput& input, CameraModel& out) {
 }
 
 Camera::Camera(CameraModel model, const CameraPlacement& p, float coneScale) : model_(std::move(model)) {
-    std::visit([&](const auto& camera) { usesLens_ = camera.usesLens(), cone_ = camera.cone(); }, model_);
+    std::visit(
+        [&]<class T>(const T& camera) {
+            usesLens_ = camera.usesLens();
+            cone_ = camera.cone();
+            looksAllRound_ = T::kLooksAllRound;
+        },
+        model_);
     cone_ = {cone_.width * coneScale, cone_.spread * coneScale};
     const double span = p.transformTimes[1] - p.transformTimes[0];
     timeOpen_ = float((p.shutterOpen - p.transformTimes[0]) / span);

@@ -27,6 +27,17 @@ struct CameraRay {
     F coneWidth;  ///< of the ray's cone at the origin; it gains coneSpread() per unit of distance
 };
 
+/// Camera space at some time, for what is known in the world.
+template <class F>
+struct CameraSpace {
+    Affine<F> worldFromCamera;
+    Vec3<F> point(const Vec3<F>& p) const { return worldFromCamera.preimage(p); }
+    /// Of a unit normal a unit normal.
+    Vec3<F> normal(const Vec3<F>& n) const {
+        return normalize(Vec3<F>{dot(n, worldFromCamera.x), dot(n, worldFromCamera.y), dot(n, worldFromCamera.z)});
+    }
+};
+
 class Camera {
 public:
     Camera() : Camera(CameraModel{}, {}) {}
@@ -41,7 +52,7 @@ public:
         });
         CameraRay<F> r;
         r.time = clamp(F(timeOpen_) + shutter * F(timeSpan_), F(0.f), F(1.f));
-        const Affine<F> m = affineAt<F>(matrices_.data(), UInt<F>(0u), UInt<F>(segments_), r.time);
+        const Affine<F> m = space(r.time).worldFromCamera;
         r.origin = m.point(local.origin);
         r.direction = normalize(m.vector(local.direction));
         r.weight = local.weight;
@@ -49,15 +60,23 @@ public:
         return r;
     }
 
+    /// `time` as rays have it.
+    template <class F>
+    CameraSpace<F> space(F time) const {
+        return {affineAt<F>(matrices_.data(), UInt<F>(0u), UInt<F>(segments_), time)};
+    }
+
     const PluginInfo& info() const;
     /// As in CameraRay; one for all rays.
     float coneSpread() const { return cone_.spread; }
     bool usesLens() const { return usesLens_; }
+    /// There is no axis along which a depth could be measured.
+    bool looksAllRound() const { return looksAllRound_; }
     bool moves() const { return segments_ > 0; }
 
 private:
     CameraModel model_;
-    bool usesLens_ = false;
+    bool usesLens_ = false, looksAllRound_ = false;
     PixelCone cone_;
     float timeOpen_ = 0, timeSpan_ = 0;
     std::uint32_t segments_ = 0;

@@ -2,6 +2,7 @@
 //
 // A camera type is a plain value with
 //   static constexpr PluginInfo kInfo;
+//   static constexpr bool kLooksAllRound; // not along an axis: depth is distance
 //   static T make(CameraInput&);                                       // from parameters, at scene build (cold)
 //   template <class F> LensRay<F> ray(const Vec2<F>& raster, const Vec2<F>& lens) const;   // hot
 //   bool usesLens() const;                // false: ray() does not look at `lens`, which then need not be drawn

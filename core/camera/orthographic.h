@@ -16,6 +16,7 @@ struct OrthographicCamera {
         ThinLens::kParameters[3],
     };
     static constexpr PluginInfo kInfo{"orthographic", "parallel rays", kParameters};
+    static constexpr bool kLooksAllRound = false;
 
     static OrthographicCamera make(CameraInput& input) { return {Screen::of(input, 1), ThinLens::make(input)}; }
 

@@ -16,6 +16,7 @@ struct PerspectiveCamera {
         ThinLens::kParameters[3],
     };
     static constexpr PluginInfo kInfo{"perspective", "a pinhole, or a thin lens", kParameters};
+    static constexpr bool kLooksAllRound = false;
 
     static PerspectiveCamera make(CameraInput& input) {
         const double fov = input.number("fov", 90, 1e-4f, 179.99f);

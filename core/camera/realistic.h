@@ -25,6 +25,7 @@ public:
     };
     static constexpr PluginInfo kInfo{"realistic", "a lens of many elements before a film of 35 mm (Film's diagonal)",
                                       kParameters};
+    static constexpr bool kLooksAllRound = false;
 
     static RealisticCamera make(CameraInput& input);
 

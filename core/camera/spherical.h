@@ -18,6 +18,7 @@ struct SphericalCamera {
         {"string", "mapping", "equalarea", "equalarea or equirectangular"},
     };
     static constexpr PluginInfo kInfo{"spherical", "all directions from one point", kParameters};
+    static constexpr bool kLooksAllRound = true;
 
     static SphericalCamera make(CameraInput& input) {
         // What a projective camera takes is accepted and has no meaning.

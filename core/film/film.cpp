@@ -10,22 +10,22 @@ namespace penumbra {
 
 static_assert(sizeof(PixelSums) == 56 && sizeof(PixelSquares) == 24);
 
-double fromFixed(__int128 x) {
-    const bool negative = x < 0;
-    const unsigned __int128 m = negative ? -static_cast<unsigned __int128>(x) : static_cast<unsigned __int128>(x);
-    const double magnitude = double(std::uint64_t(m >> 64)) + std::ldexp(double(std::uint64_t(m)), -64);
-    return negative ? -magnitude : magnitude;
-}
-
-Film::Film(const CropWindow& crop, int replicates, double normalization)
+Film::Film(const CropWindow& crop, int replicates, double normalization, const AovSet& aovs)
     : crop_(crop), replicates_(replicates), normalization_(normalization) {
     try {
         sums_.resize(pixelCount() * std::size_t(replicates));
         if (replicates == 1) squares_.resize(pixelCount());
+        aovs_ = AovSums(aovs, pixelCount());
     } catch (const std::exception&) {
         throw Error(ErrorKind::OutOfMemory, "not enough memory for a film of " + std::to_string(crop.width()) + "x" +
                                                 std::to_string(crop.height()) + " pixels");
     }
+}
+
+void Film::estimateAovs(std::size_t pixel, std::span<float> out) const {
+    std::uint32_t samples = 0;
+    for (int r = 0; r < replicates_; ++r) samples += sums_[pixel * std::size_t(replicates_) + std::size_t(r)].samples;
+    aovs_.estimate(pixel, samples, normalization_, out);
 }
 
 PixelEstimate Film::estimate(std::size_t pixel) const {

@@ -1,14 +1,15 @@
 // Film: exact sums of samples, per pixel and replicate plane.
 //
-// A sum is a 128-bit integer in units of 2^-64, so addition is associative and commutative: thread count, order, resume and
-// merging of parts cannot change a bit. Sample values go up to 2^33 in magnitude; what is smaller than 2^-64 is cut off.
-// With one plane (R = 1) the film also keeps sums of squares, in units of 2^-40 in 64 bits, saturating; a saturated pixel's
+// Sums are exact (exact_sum.h): thread count, order, resume and merging of parts cannot change a bit. Sample values go up to
+// 2^33 in magnitude. With one plane (R = 1) the film also keeps sums of squares, in units of 2^-40 in 64 bits, saturating; a saturated pixel's
 // error is unknown (NaN). With R >= 2 planes, sample i goes to plane i mod R and the error comes from the planes' means.
 //
 // Conventions: pixels are those of the crop window, row by row from the top left; a sample is already L times the sign of
 // the filter, in sensor RGB. Thread safety: a pixel belongs to one thread at a time; different pixels are independent.
 #pragma once
 
+#include "core/film/aov.h"
+#include "core/film/exact_sum.h"
 #include "core/math/spectrum.h"
 
 #include <cstddef>
@@ -16,31 +17,6 @@
 #include <vector>
 
 namespace penumbra {
-
-/// x in units of 2^-64, rounded towards zero. REQUIRES: |x| < 2^33.
-inline __int128 toFixed(float x) {
-    const std::uint32_t b = floatBits(x);
-    const int exponent = int(b >> 23 & 0xFFu);
-    const int shift = exponent - 86;   // value = mantissa * 2^(exponent - 150), and 150 - 64 = 86
-    const __int128 mantissa = exponent == 0 ? 0 : __int128((b & 0x7FFFFFu) | 0x800000u);
-    const __int128 magnitude = shift >= 0 ? mantissa << shift : shift > -24 ? mantissa >> -shift : 0;
-    return b >> 31 ? -magnitude : magnitude;
-}
-/// Nearest double.
-double fromFixed(__int128 x);
-
-/// A 128-bit sum with the alignment of 64 bits, so that a pixel packs tightly.
-struct ExactSum {
-    std::uint64_t low = 0;
-    std::int64_t high = 0;
-    void add(__int128 x) {
-        const __int128 sum = value() + x;
-        low = std::uint64_t(sum);
-        high = std::int64_t(sum >> 64);
-    }
-    __int128 value() const { return (__int128(high) << 64) | low; }
-    friend bool operator==(const ExactSum&, const ExactSum&) = default;
-};
 
 /// One pixel of one plane.
 struct PixelSums {
@@ -75,12 +51,14 @@ class Film {
 public:
     Film() = default;
     /// `normalization`: Filter::normalization(). Throws Error(OutOfMemory) where the pixels do not fit.
-    Film(const CropWindow& crop, int replicates, double normalization);
+    Film(const CropWindow& crop, int replicates, double normalization, const AovSet& aovs = {});
 
     const CropWindow& crop() const { return crop_; }
     int replicates() const { return replicates_; }
     std::size_t pixelCount() const { return std::size_t(crop_.width()) * std::size_t(crop_.height()); }
-    std::size_t memoryBytes() const { return sums_.size() * sizeof(PixelSums) + squares_.size() * sizeof(PixelSquares); }
+    std::size_t memoryBytes() const {
+        return sums_.size() * sizeof(PixelSums) + squares_.size() * sizeof(PixelSquares) + aovs_.memoryBytes();
+    }
 
     /// Adds sample number `sample` of the pixel. Returns false, and counts the sample as black, where the value is not finite
     /// or beyond 2^33. `sign`: of the filter; `hit`: the camera ray met something.
@@ -90,7 +68,7 @@ public:
         p.covered += hit ? (sign < 0.f ? -1 : 1) : 0;
         const float channel[3] = {value.r, value.g, value.b};
         for (float v : channel)
-            if (!(abs(v) < kLargest)) return false;
+            if (!(abs(v) < kLargestSummand)) return false;
         for (int c = 0; c < 3; ++c) p.value[c].add(toFixed(channel[c]));
         if (replicates_ == 1) addSquares(squares_[pixel], channel);
         return true;
@@ -98,10 +76,17 @@ public:
 
     PixelEstimate estimate(std::size_t pixel) const;
 
-    friend bool operator==(const Film& a, const Film& b) { return a.sums_ == b.sums_ && a.squares_ == b.squares_; }
+    /// What is seen beside the picture; empty where nobody asked for it.
+    AovSums& aovs() { return aovs_; }
+    const AovSums& aovs() const { return aovs_; }
+    /// The channels of the set of aovs(), one after the other.
+    void estimateAovs(std::size_t pixel, std::span<float> out) const;
+
+    friend bool operator==(const Film& a, const Film& b) {
+        return a.sums_ == b.sums_ && a.squares_ == b.squares_ && a.aovs_ == b.aovs_;
+    }
 
 private:
-    static constexpr float kLargest = 0x1p33f;
     static void addSquares(PixelSquares& s, const float channel[3]) noexcept {
         for (int c = 0; c < 3; ++c) {
             const double square = double(channel[c]) * double(channel[c]) * 0x1p40;
@@ -115,6 +100,7 @@ private:
     double normalization_ = 1;
     std::vector<PixelSums> sums_;          ///< pixel-major, planes of a pixel side by side
     std::vector<PixelSquares> squares_;    ///< R = 1 only
+    AovSums aovs_;
 };
 
 }  // namespace penumbra

@@ -86,21 +86,36 @@ CropWindow readCrop(const ParameterSet& film, Resolution asked, Resolution made,
     return crop;
 }
 
-void checkSize(Resolution r, const CropWindow& crop, SourcePosition where, const BuildContext& context) {
+void checkSize(Resolution r, const CropWindow& crop, const AovSet& aovs, SourcePosition where, const BuildContext& context) {
+    const std::int64_t bytesPerPixel = kBytesPerPixel + std::int64_t(AovSums::bytesPerPixel(aovs));
     const std::int64_t pixels = std::int64_t{r.width} * r.height;
     const std::int64_t cropPixels = std::int64_t{crop.width()} * crop.height();
-    if (pixels <= kMostPixels && cropPixels <= kMostFilmBytes / kBytesPerPixel) return;
+    if (pixels <= kMostPixels && cropPixels <= kMostFilmBytes / bytesPerPixel) return;
     context.fail(
         where,
         fmt::format("a film of {} x {} pixels is too large: it would take {:.3g} bytes; at most {} pixels and {:.3g} "
                     "bytes are allowed",
-                    r.width, r.height, double(cropPixels) * double(kBytesPerPixel), kMostPixels,
+                    r.width, r.height, double(cropPixels) * double(bytesPerPixel), kMostPixels,
                     double(kMostFilmBytes)));
 }
 
-void checkType(const FilmEntity& film, BuildContext& context) {
+/// What the film of that name keeps beside the picture: pbrt's gbuffer what of it we have, in the space that it asks for.
+void readGbuffer(const FilmEntity& film, FilmSettings& settings, BuildContext& context) {
+    static const std::vector<std::string> known{"camera", "world"};
+    const std::string space = film.parameters.text("coordinatesystem", "camera");
+    if (std::find(known.begin(), known.end(), space) == known.end())
+        context.fail(film.where, "unknown coordinatesystem " + quote(space) + suggestion(space, known));
+    settings.aovsInCameraSpace = space == "camera";
+    for (const Aov aov : {Aov::Albedo, Aov::Normal, Aov::ShadingNormal, Aov::Position, Aov::Uv})
+        settings.aovs.add(aov);
+    context.warn(film.where, "the film 'gbuffer' keeps albedo, N, Ns, P and uv, under these names; dzdx and dzdy are not there "
+                             "yet, and SE stands for Variance");
+}
+
+void readType(const FilmEntity& film, FilmSettings& settings, BuildContext& context) {
     static const std::vector<std::string> known{"rgb", "gbuffer", "spectral"};
     if (film.type == "rgb") return;
+    if (film.type == "gbuffer") return readGbuffer(film, settings, context);
     if (std::find(known.begin(), known.end(), film.type) == known.end())
         context.fail(film.where, "unknown film " + quote(film.type) + suggestion(film.type, known));
     context.warn(film.where, "the film " + quote(film.type) + " is not there yet; it counts as 'rgb'");
@@ -108,7 +123,6 @@ void checkType(const FilmEntity& film, BuildContext& context) {
         film.parameters.integer(name, 0);
     for (const char* name : {"lambdamin", "lambdamax"})
         film.parameters.number(name, 0);
-    film.parameters.text("coordinatesystem", "");
 }
 
 }  // namespace
@@ -119,16 +133,17 @@ const ColorSpace& filmColorSpace(const SceneDescription& scene) {
 }
 
 FilmSettings readFilm(const FilmEntity& film, Shutter shutter, const BuildOptions& options, BuildContext& context) {
-    checkType(film, context);
+    FilmSettings settings;
+    readType(film, settings, context);
+    if (options.aovs) settings.aovs = *options.aovs;
     const ParameterSet& parameters = film.parameters;
     const Resolution asked = readResolution(parameters, context);
     const Resolution made = options.width > 0 && options.height > 0 ? Resolution{options.width, options.height} : asked;
-    FilmSettings settings;
     settings.width = made.width;
     settings.height = made.height;
     settings.crop = readCrop(parameters, asked, made, context);
     if (options.cropWindow || options.pixelBounds) settings.crop = cropOf(options, made);
-    checkSize(made, settings.crop, film.where, context);
+    checkSize(made, settings.crop, settings.aovs, film.where, context);
     settings.fileName = parameters.text("filename", settings.fileName);
     settings.colorSpace = context.filmColorSpace().name;
 

@@ -56,7 +56,7 @@ std::optional<BuiltShape> ShapeBuilder::build(ShapeEntity&& shape, const ShapePl
     BuiltShape out;
     out.groupFromObject = place.groupFromObject;
     out.material = materials_.get(shape.material);
-    if (out.material.needsUv) out.record.flags |= kShapeNeedsUv;
+    if (out.material.needsUv || showsUv_) out.record.flags |= kShapeNeedsUv;
     if (out.material.needsTangent) out.record.flags |= kShapeNeedsTangent;
     if (flipsNormal(shape, place)) out.record.flags |= kShapeFlipNormal;
     readAlpha(shape, out.record);

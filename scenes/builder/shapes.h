@@ -35,14 +35,16 @@ struct ShapeCounts {
 /// Thread safety: none; one instance belongs to one build.
 class ShapeBuilder {
 public:
-    /// All must outlive this object. `meshFacts`: null, or what gets an entry for every mesh.
+    /// All must outlive this object. `showsUv`: uv are wanted for themselves, whatever materials look at. `meshFacts`: null,
+    /// or what gets an entry for every mesh.
     ShapeBuilder(BuildContext& context, TextureLibrary& textures, MaterialLibrary& materials, MediumLibrary& media,
-                 AreaLightLibrary& lights, std::vector<MeshFacts>* meshFacts)
+                 AreaLightLibrary& lights, bool showsUv, std::vector<MeshFacts>* meshFacts)
         : context_(context),
           textures_(textures),
           materials_(materials),
           media_(media),
           lights_(lights),
+          showsUv_(showsUv),
           meshFacts_(meshFacts) {}
 
     /// Takes the directive apart. Nothing where nothing of it can be seen.
@@ -70,6 +72,7 @@ private:
     MaterialLibrary& materials_;
     MediumLibrary& media_;
     AreaLightLibrary& lights_;
+    const bool showsUv_;
     std::vector<MeshFacts>* meshFacts_;
     ShapeCounts counts_;
 };
