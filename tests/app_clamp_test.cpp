@@ -49,8 +49,9 @@ TEST(Clamp, BiasIsWhatTheClosedFormSays) {
             EXPECT_NEAR(job->film().estimate(pixel).mean[c] + bias.meanLost[c], whole->film().estimate(pixel).mean[c], 1e-6);
         }
     }
-    EXPECT_NEAR(bias.relative, lost / all, 1e-6);
-    EXPECT_EQ(clampText(bias), "128 samples limited to 4: a bias; on average the picture is too dark by 52 %");
+    const PictureError error = pictureError(job->film());
+    EXPECT_NEAR(bias.relativeTo(error.mean), lost / all, 1e-6);
+    EXPECT_EQ(clampText(bias, error), "128 samples limited to 4: a bias; on average the picture is too dark by 52 %");
     EXPECT_EQ(clampBias(*whole).samples, 0u);
 }
 
@@ -120,7 +121,8 @@ TEST_F(ClampCommand, IsAnnouncedAndRepeated) {
     const nlohmann::json statistics = nlohmann::json::parse(told.out), recipe = statistics.at("recipe");
     EXPECT_TRUE(contains(recipe.at("command"), " --clamp 4"));
     EXPECT_EQ(recipe.at("clamp").at("limit"), 4);
-    EXPECT_EQ(recipe.at("clamp"), statistics.at("bias").at("clamp"));
+    EXPECT_EQ(statistics.at("bias").at("clamp").at("mean_lost"), recipe.at("clamp").at("mean_lost"));
+    EXPECT_NEAR(statistics.at("bias").at("clamp").at("relative").get<double>(), 6 / 11.5, 1e-6);
     EXPECT_NEAR(recipe.at("clamp").at("mean_lost").at(0).get<double>(), 3, 1e-6);
     EXPECT_TRUE(contains(run({"--clamp", "4", "--stats", "--quiet"}).err, "clamped            128 samples"));
     EXPECT_TRUE(contains(run({"--clamp", "off", "--stats=json"}).out, " --clamp off\""));

@@ -1,17 +1,13 @@
 // penumbra render: the picture, its header, its replay, and how it ends early.
 
-#include "core/image/exr.h"
 #include "core/math/lanes.h"
-#include "tests/run_program.h"
+#include "tests/picture_files.h"
 
-#include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <cmath>
 #include <sstream>
-#include <thread>
 
 namespace penumbra {
 namespace {
@@ -32,13 +28,6 @@ protected:
     }
 };
 
-nlohmann::json recipeOf(const ExrFile& file) {
-    for (const auto& [name, value] : file.header.attributes)
-        if (name == "penumbra") return nlohmann::json::parse(std::get<std::string>(value));
-    ADD_FAILURE() << "no recipe";
-    return {};
-}
-
 /// The pixels of a window of the picture, of all channels, as bits: equal where the same window holds the same.
 std::vector<std::uint32_t> bitsOf(const ExrFile& file, PixelWindow window) {
     std::vector<std::uint32_t> bits;
@@ -54,14 +43,6 @@ std::vector<std::uint32_t> bitsOf(const ExrFile& file, PixelWindow window) {
 
 std::array<int, 4> cornersOf(const PixelWindow& w) {
     return {w.x0, w.y0, w.x1, w.y1};
-}
-
-/// A limit on what may be lost: names of temporary files have ".tmp." in them.
-std::vector<std::string> leftovers(const std::string& folder) {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (contains(entry.path().filename().string(), ".tmp.")) names.push_back(entry.path().filename());
-    return names;
 }
 
 TEST_F(RenderCommand, SameBytesForAnyThreadsAndLanesAndOnEveryRun) {
@@ -292,13 +273,6 @@ TEST_F(RenderCommand, InvalidSamplesAreReportedWithTheCommandsThatReplayThem) {
 /// Minutes of work, to be interrupted.
 std::vector<std::string> longRender(const std::string& scene, const std::string& picture) {
     return {"render", scene, "-o", picture, "--spp", "65536", "--resolution", "640x480", "-t", "1"};
-}
-
-/// Waits until that is true, for a minute at most.
-void waitUntil(const std::function<bool()>& isTrue) {
-    using namespace std::chrono_literals;
-    for (int i = 0; i < 1200 && !isTrue(); ++i)
-        std::this_thread::sleep_for(50ms);
 }
 
 TEST_F(RenderCommand, SignalsEndItWithNoPictureAndNothingLeftBehind) {

@@ -53,6 +53,26 @@ TEST(AtomicFile, LeavesNothingWithoutCommit) {
     EXPECT_EQ(folder.fileCount(), 0u);
 }
 
+TEST(AtomicFile, WhatAKilledProcessLeftIsRemovedAndNothingElse) {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("a.bin");
+    const pid_t child = ::fork();
+    if (child == 0) {
+        AtomicFile file(path);
+        file.write("half");
+        ::_exit(0);  // as if killed: nothing is tidied up
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(folder.fileCount(), 1u);
+    const AtomicFile living(path), other(folder.path("b.bin"));
+    folder.file(".a.bin.tmp.elsewhere.1.01234567", "of another machine");
+    folder.file(".a.bin.tmp", "of somebody else");
+    EXPECT_EQ(folder.fileCount(), 5u);
+    removeAbandonedTemporaries(path);
+    EXPECT_EQ(folder.fileCount(), 4u);
+    removeAbandonedTemporaries(folder.path("no/such/folder"));
+}
+
 TEST(AtomicFile, SeeksBackAndBeyondTheEnd) {
     const TemporaryFolder folder;
     AtomicFile file(folder.path("a"));

@@ -102,15 +102,15 @@ TEST(Aovs, AnEdgeIsFilteredAsThePictureIs) {
 /// A sharper filter's negative lobes count in the albedo, but no mean of places lies outside of what was seen.
 TEST(Aovs, FiltersWithNegativeLobes) {
     const auto job =
-        renderText("Camera \"orthographic\" \"float screenwindow\" [ 0 8 -4 4 ]\n" + film(8, 8) +
-                       "PixelFilter \"mitchell\"\nSampler \"sobol\" \"integer pixelsamples\" 64\nWorldBegin\n" + kWall,
+        renderText("Camera \"orthographic\" \"float screenwindow\" [ 0.5 8.5 -4 4 ]\n" + film(8, 8) +
+                       "PixelFilter \"mitchell\"\nSampler \"sobol\" \"integer pixelsamples\" 1024\nWorldBegin\n" + kWall,
                    withAovs());
     bool overshoots = false;
     for (int x = 0; x < 8; ++x) {
         const Pixel p(*job, x, 4);
-        overshoots = overshoots || p.value(Aov::Albedo, 2) > 0.605f || p.value(Aov::Albedo, 2) < -0.005f;
-        EXPECT_TRUE(x >= 6 || (p.value(Aov::Position) > x - 1.6f && p.value(Aov::Position) < 4.0001f));
-        EXPECT_TRUE(x >= 6 || std::fabs(p.value(Aov::Depth) - 5) < 1e-5f);
+        overshoots = overshoots || p.value(Aov::Albedo, 2) > 0.603f || p.value(Aov::Albedo, 2) < -0.003f;
+        EXPECT_TRUE(x >= 5 || (p.value(Aov::Position) > x - 1.1f && p.value(Aov::Position) < 4.0001f));
+        EXPECT_TRUE(x >= 5 || std::fabs(p.value(Aov::Depth) - 5) < 1e-5f);
     }
     EXPECT_TRUE(overshoots);
 }
@@ -143,7 +143,7 @@ TEST(Aovs, MotionIsAveraged) {
 /// A lens looks past the edge of a near wall at a far one: what is seen of each is what the albedo says.
 TEST(Aovs, DefocusIsAveraged) {
     const auto job = renderText(
-        "Camera \"perspective\" \"float fov\" 60 \"float lensradius\" .3 \"float focaldistance\" 4\n" + film(16, 4) +
+        "Camera \"perspective\" \"float fov\" 60 \"float lensradius\" 1.5 \"float focaldistance\" 4\n" + film(16, 4) +
             "PixelFilter \"box\"\nSampler \"sobol\" \"integer pixelsamples\" 64\nWorldBegin\n"
             "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\n"
             "Material \"diffuse\" \"rgb reflectance\" [ 1 0 0 ]\n"
@@ -160,7 +160,7 @@ TEST(Aovs, DefocusIsAveraged) {
         EXPECT_NEAR(p.value(Aov::Depth), 2 * near + 4 * far, 1e-5);
         mixed += near > 0.05 && far > 0.05;
     }
-    EXPECT_GE(mixed, 3);
+    EXPECT_GE(mixed, 2);
 }
 
 TEST(Aovs, NormalsFaceTheViewer) {
@@ -177,6 +177,7 @@ TEST(Aovs, ShadingNormalsAreThoseThatTheIntegratorShows) {
     options.build.integrator = "normals";
     options.build.samplesOverride = 1;
     const auto job = renderText(motionText(), options, folder.path());
+    constexpr double kOpen = 0.8;  // for how long the shutter is open, by which pictures are exposed
     int seen = 0;
     for (int y = 0; y < 24; ++y)
         for (int x = 0; x < 32; ++x) {
@@ -184,7 +185,7 @@ TEST(Aovs, ShadingNormalsAreThoseThatTheIntegratorShows) {
             if (e.alpha == 0) continue;
             ++seen;
             expectNear(Pixel(*job, x, y).triple(Aov::ShadingNormal),
-                       {2 * e.mean[0] - 1, 2 * e.mean[1] - 1, 2 * e.mean[2] - 1}, 1e-6);
+                       {2 * e.mean[0] / kOpen - 1, 2 * e.mean[1] / kOpen - 1, 2 * e.mean[2] / kOpen - 1}, 1e-6);
         }
     EXPECT_GT(seen, 200);
 }
@@ -337,7 +338,8 @@ TEST_F(AovCommand, WritesTheChannelsThatAreAskedFor) {
     EXPECT_EQ(readBytes(folder.path("b.exr")), readBytes(folder.path("c.exr")));
     EXPECT_TRUE(contains(readBytes(folder.path("a.exr")), " --aov Z,uv\""));
     // Shown by the layer's name.
-    EXPECT_EQ(runProgram({"convert", folder.path("b.exr"), folder.path("n.png"), "--layer", "N"}).code, 0);
+    for (const char* layer : {"N", "uv", "Z"})
+        EXPECT_EQ(runProgram({"convert", folder.path("b.exr"), folder.path("n.png"), "--layer", layer}).code, 0);
 }
 
 TEST_F(AovCommand, NamesTheNearestAndWarnsWhereNoChannelsAre) {

@@ -1,7 +1,7 @@
 // The files that a render leaves: RenderJob::writePicture.
 
+#include "app/batch/pixels.h"
 #include "app/batch/recipe.h"
-#include "app/batch/render_job.h"
 #include "core/base/atomic_file.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -20,10 +20,6 @@ bool isSpecialFile(const std::string& path) {
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
-std::size_t pixelNumber(const CropWindow& crop, int x, int row) {
-    return std::size_t(row) * std::size_t(crop.width()) + std::size_t(x);
 }
 
 /// In the order in which a film gives them.
@@ -55,22 +51,20 @@ void writeExrPicture(const RenderJob& job, const std::string& path) {
     header.attributes = {{"penumbra", recipeJson(job)}, {"samplesPerPixel", job.scene().samplesPerPixel}};
     std::vector<float> aovs(header.channels.size() - firstAov);
     writeExr(path, header, [&](const ExrBlock& block) {
-        std::size_t to = 0;
-        for (int row = block.firstRow; row < block.firstRow + block.rows; ++row)
-            for (int x = 0; x < crop.width(); ++x, ++to) {
-                const std::size_t pixel = pixelNumber(crop, x, row - crop.y0);
-                const PixelEstimate e = job.film().estimate(pixel);
-                for (std::size_t c = 0; c < 3; ++c) {
-                    block.floats[c][to] = float(e.mean[c]);
-                    block.floats[4 + c][to] = float(e.standardError[c]);
-                }
-                block.floats[3][to] = float(e.alpha);
-                block.uints[7][to] = e.samples;
-                if (aovs.empty()) continue;
-                job.film().estimateAovs(pixel, aovs);
-                for (std::size_t c = 0; c < aovs.size(); ++c)
-                    block.floats[firstAov + c][to] = aovs[c];
+        const int firstRow = block.firstRow - crop.y0;
+        visitPixels(job, {0, firstRow, crop.width(), firstRow + block.rows}, [&](std::size_t to, std::size_t pixel) {
+            const PixelEstimate e = job.film().estimate(pixel);
+            for (std::size_t c = 0; c < 3; ++c) {
+                block.floats[c][to] = float(e.mean[c]);
+                block.floats[4 + c][to] = float(e.standardError[c]);
             }
+            block.floats[3][to] = float(e.alpha);
+            block.uints[7][to] = e.samples;
+            if (aovs.empty()) return;
+            job.film().estimateAovs(pixel, aovs);
+            for (std::size_t c = 0; c < aovs.size(); ++c)
+                block.floats[firstAov + c][to] = aovs[c];
+        });
     });
 }
 
@@ -86,11 +80,12 @@ std::string RenderJob::writePicture(const std::string& path) const {
         writeExrPicture(*this, path);
         return "";
     }
-    std::vector<float> rgb;
-    rgb.reserve(film_.pixelCount() * 3);
-    for (std::size_t i = 0; i < film_.pixelCount(); ++i)
-        for (const double v : film_.estimate(i).mean)
-            rgb.push_back(float(v));
+    std::vector<float> rgb(film_.pixelCount() * 3);
+    visitPixels(*this, {0, 0, film_.crop().width(), film_.crop().height()}, [&](std::size_t to, std::size_t pixel) {
+        const PixelEstimate e = film_.estimate(pixel);
+        for (std::size_t c = 0; c < 3; ++c)
+            rgb[3 * to + c] = float(e.mean[c]);
+    });
     std::string through;
     if (imageFileKind(path) == ImageFileKind::DisplayEncoded) {
         const DisplayTransform display({}, *findColorSpace(scene_.film.colorSpace));
@@ -111,7 +106,8 @@ void checkPicturePath(const std::string& path) {
     const fs::path folder = fs::path(path).parent_path();
     if (!folder.empty() && !fs::is_directory(folder, ignored))
         throw Error(ErrorKind::CannotCreate,
-                    pathText(path) + ": there is no folder " + quote(folder.string(), path.size()));
+                    pathText(path) + ": there is no folder " + quote(folder.string()));
+    removeAbandonedTemporaries(path);
     const AtomicFile attempt(path);
     loadImageLibraryFor(path);  // the installation may be incomplete
     if (imageFileKind(path) == ImageFileKind::DisplayEncoded)

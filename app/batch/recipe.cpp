@@ -59,7 +59,8 @@ std::string repeatCommand(const RenderOptions& options) {
     if (b.classicArea) add("--light-sampling", lightSamplingName(true));
     if (b.intersection != IntersectionMode::Robust) add("--intersection", intersectionName(b.intersection));
     if (options.replicates != 1) add("--replicates", options.replicates);
-    if (b.aovs) add("--aov", b.aovs->empty() ? std::string("none") : fmt::format("{}", fmt::join(aovNames(*b.aovs), ",")));
+    if (b.aovs)
+        add("--aov", b.aovs->empty() ? std::string("none") : fmt::format("{}", fmt::join(aovNames(*b.aovs), ",")));
     if (b.clamp) add("--clamp", *b.clamp == kInfinity ? std::string("off") : fmt::format("{}", *b.clamp));
     return command;
 }
@@ -99,13 +100,15 @@ std::string recipeJson(const RenderJob& job) {
         {"embree", Accelerator::libraryVersion()},
         {"native", kNativeBuild},
         {"warnings", job.warningCount()},
-        {"invalid_samples", job.counts().invalid},
+        {"invalid_samples", job.countsSoFar().invalid},
         {"error", o.replicates == 1 ? "independent-sample estimate" : "spread of replicates"},
     };
     if (!s.film.aovs.empty())
         recipe["aovs"] = {{"names", aovNames(s.film.aovs)}, {"space", s.film.aovsInCameraSpace ? "camera" : "world"}};
     if (const ClampBias bias = clampBias(job); bias.limit < kInfinity)
-        recipe["clamp"] = {{"limit", bias.limit}, {"samples", bias.samples}, {"mean_lost", bias.meanLost}, {"relative", bias.relative}};
+        recipe["clamp"] = {{"limit", bias.limit}, {"samples", bias.samples}, {"mean_lost", bias.meanLost}};
+    if (!job.isWhole())
+        recipe["partial"] = {{"samples_done", job.progress().samplesDone.load()}, {"samples", job.progress().samples}};
     // A file name need not be UTF-8.
     return recipe.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }

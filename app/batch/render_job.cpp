@@ -81,6 +81,10 @@ void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
                                           std::to_string(scene_.samplesPerPixel));
     integrator_ = makeIntegrator(scene_);
     film_ = Film(scene_.film.crop, options_.replicates, scene_.filter.normalization(), scene_.film.aovs);
+    const int size = options_.tileSize;
+    columns_ = std::size_t((film_.crop().width() + size - 1) / size);
+    tiles_ = columns_ * std::size_t((film_.crop().height() + size - 1) / size);
+    if (options_.isWatched) tileLocks_ = std::make_unique<std::mutex[]>(tiles_);
     progress_.samples = film_.pixelCount() * std::uint64_t(scene_.samplesPerPixel);
     warningCount_ = warnings.all().size();
     times_.build = secondsSince(start);
@@ -88,35 +92,69 @@ void RenderJob::prepare(SceneDescription description, Warnings& warnings) {
 
 bool RenderJob::run(const std::atomic<bool>* stop) {
     const auto start = std::chrono::steady_clock::now();
-    const CropWindow& crop = film_.crop();
-    const int size = options_.tileSize, columns = (crop.width() + size - 1) / size,
-              rows = (crop.height() + size - 1) / size;
-    const std::uint64_t tiles = std::uint64_t(columns) * std::uint64_t(rows);
-    const SpreadOrder order(tiles);
+    const auto samples = std::uint32_t(scene_.samplesPerPixel);
     progress_.samplesDone = 0;
-    std::mutex mutex;  // counts are merged once a tile
-    parallelFor(tiles, [&](std::size_t i) {
-        const int x = int(order[i] % std::uint64_t(columns)) * size, y = int(order[i] / std::uint64_t(columns)) * size;
-        const RenderCounts counts =
-            renderTile({x, y, std::min(x + size, crop.width()), std::min(y + size, crop.height())}, stop);
-        const std::lock_guard lock(mutex);
-        counts_.add(counts);
-    });
+    constexpr std::uint32_t kGrowth = 4;  // of the samples with each pass
+    std::uint32_t first = 0, end = options_.isWatched ? 1 : samples;
+    while (first < samples) {
+        renderPass({first, end}, stop);
+        first = end;
+        end = end < samples / kGrowth ? end * kGrowth : samples;
+    }
     times_.render += secondsSince(start);
-    return progress_.samplesDone == progress_.samples;
+    return isWhole();
 }
 
-RenderCounts RenderJob::renderTile(const Tile& tile, const std::atomic<bool>* stop) {
-    const std::uint64_t pixels = std::uint64_t(tile.x1 - tile.x0) * std::uint64_t(tile.y1 - tile.y0);
-    const auto samples = std::uint32_t(scene_.samplesPerPixel);
+void RenderJob::renderPass(SampleRange samples, const std::atomic<bool>* stop) {
+    const SpreadOrder order(tiles_);
+    parallelFor(tiles_, [&](std::size_t i) {
+        const RenderCounts counts = renderTile(order[i], samples, stop);
+        const std::lock_guard lock(countsLock_);
+        counts_.add(counts);
+    });
+}
+
+RenderCounts RenderJob::renderTile(std::size_t number, SampleRange samples, const std::atomic<bool>* stop) {
+    const Tile t = tile(number);
+    const std::uint64_t pixels = std::uint64_t(t.x1 - t.x0) * std::uint64_t(t.y1 - t.y0);
     RenderCounts counts;
-    for (std::uint32_t first = 0; first < samples && !(stop && stop->load(std::memory_order_relaxed));) {
-        const std::uint32_t end = first + std::min(kSamplesPerCall, samples - first);
-        integrator_->render(scene_, tile, {first, end}, options_.controls, film_, counts);
+    for (std::uint32_t first = samples.begin;
+         first < samples.end && !(stop && stop->load(std::memory_order_relaxed));) {
+        const std::uint32_t end = first + std::min(kSamplesPerCall, samples.end - first);
+        {
+            const auto lock = lockTile(number);
+            integrator_->render(scene_, t, {first, end}, options_.controls, film_, counts);
+        }
         progress_.samplesDone.fetch_add(pixels * (end - first), std::memory_order_relaxed);
         first = end;
     }
     return counts;
+}
+
+Tile RenderJob::tile(std::size_t number) const {
+    const int size = options_.tileSize, x = int(number % columns_) * size, y = int(number / columns_) * size;
+    return {x, y, std::min(x + size, film_.crop().width()), std::min(y + size, film_.crop().height())};
+}
+
+std::unique_lock<std::mutex> RenderJob::lockTile(std::size_t number) const {
+    return tileLocks_ ? std::unique_lock(tileLocks_[number]) : std::unique_lock<std::mutex>();
+}
+
+void RenderJob::visitTiles(const Tile& window, const std::function<void(const Tile&)>& visit) const {
+    const int size = options_.tileSize;
+    for (int row = window.y0 / size; row * size < window.y1; ++row)
+        for (int column = window.x0 / size; column * size < window.x1; ++column) {
+            const std::size_t number = std::size_t(row) * columns_ + std::size_t(column);
+            const Tile t = tile(number);
+            const auto lock = lockTile(number);
+            visit({std::max(t.x0, window.x0), std::max(t.y0, window.y0), std::min(t.x1, window.x1),
+                   std::min(t.y1, window.y1)});
+        }
+}
+
+RenderCounts RenderJob::countsSoFar() const {
+    const std::lock_guard lock(countsLock_);
+    return counts_;
 }
 
 ReplayedSample RenderJob::replay(int x, int y, std::uint32_t sample, int lanes) const {

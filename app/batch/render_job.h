@@ -7,8 +7,8 @@
 //     job.writePicture("picture.exr");
 //
 // The picture is a function of the scene and the options that change it (BuildOptions, replicates): threads, tiles,
-// lanes and batches change no bit. Errors: Error, as the parts throw it. Thread safety: one job belongs to one thread,
-// but progress() may be read from any.
+// lanes and batches change no bit. Errors: Error, as the parts throw it. Thread safety: one job belongs to one thread;
+// but progress() may be read from any, and where options say isWatched, so may be whatever is marked "while it runs".
 #pragma once
 
 #include "app/batch/scene_inputs.h"
@@ -18,6 +18,8 @@
 #include "scenes/builder.h"
 
 #include <atomic>
+#include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -30,6 +32,9 @@ struct RenderOptions {
     BuildOptions build;
     int replicates = 1;  ///< planes of the film
     int tileSize = 16;   ///< pixels; changes no bit
+    /// Somebody looks on while the job runs: it goes over the whole picture again and again with ever more samples, so
+    /// that there is soon something to see everywhere. Changes no bit.
+    bool isWatched = false;
     RenderControls controls;
 };
 
@@ -66,6 +71,11 @@ public:
     const SceneInputs& inputs() const { return inputs_; }
     const Film& film() const { return film_; }
     const RenderCounts& counts() const { return counts_; }
+    RenderCounts countsSoFar() const;                                            ///< while it runs
+    bool isWhole() const { return progress_.samplesDone == progress_.samples; }  ///< while it runs
+    /// While it runs: visits what lies in the window (of film coordinates) of each tile, one after the other, while
+    /// nothing is rendered there. A thread that has work in that tile waits, so make it quick.
+    void visitTiles(const Tile& window, const std::function<void(const Tile&)>& visit) const;
     const RenderTimes& times() const { return times_; }
     const RenderProgress& progress() const { return progress_; }
     const RenderOptions& options() const { return options_; }
@@ -73,18 +83,25 @@ public:
 
     /// By extension: .exr with the error and the header that repeats the picture; .png .jpg .tif ... through the
     /// default display transform; .hdr .pfm linear. What is there and is no regular file (a device, a pipe) gets an
-    /// EXR. Returns which display transform it went through; empty where through none.
+    /// EXR. While it runs, what there is so far, and the EXR's header says so. Returns which display transform it went
+    /// through; empty where through none.
     std::string writePicture(const std::string& path) const;
 
 private:
     void prepare(SceneDescription description, Warnings& warnings);
-    RenderCounts renderTile(const Tile& tile, const std::atomic<bool>* stop);
+    void renderPass(SampleRange samples, const std::atomic<bool>* stop);
+    RenderCounts renderTile(std::size_t number, SampleRange samples, const std::atomic<bool>* stop);
+    Tile tile(std::size_t number) const;
+    std::unique_lock<std::mutex> lockTile(std::size_t number) const;
 
     RenderOptions options_;
     Scene scene_;
     SceneInputs inputs_;
     Film film_;
     std::unique_ptr<Integrator> integrator_;
+    std::size_t columns_ = 0, tiles_ = 0;      ///< tiles in a row; all
+    std::unique_ptr<std::mutex[]> tileLocks_;  ///< isWatched only: held by who renders or reads a tile
+    mutable std::mutex countsLock_;
     RenderCounts counts_;
     RenderTimes times_;
     RenderProgress progress_;
@@ -95,7 +112,8 @@ private:
 bool isExrPath(const std::string& path);
 
 /// Throws what writing a picture there would: asked before a long render. Usage: unknown extension; CannotCreate: no
-/// such folder, a folder of that name, no permission. What stands there stays as it is.
+/// such folder, a folder of that name, no permission. What stands there stays as it is, but for what killed renders of
+/// this picture left beside it.
 void checkPicturePath(const std::string& path);
 
 /// Error(CannotCreate) where the path is one of the scene's own files, under whatever name.

@@ -53,9 +53,9 @@ PictureError pictureError(const Film& film) {
         }
         result.unknownPixels += !allKnown;
     }
-    const double mean = film.pixelCount() ? sum / double(3 * film.pixelCount()) : 0;
+    if (film.pixelCount()) result.mean = sum / double(3 * film.pixelCount());
     if (known) result.rootMeanSquare = std::sqrt(squares / double(known));
-    if (mean > 0) result.relative = result.rootMeanSquare / mean;
+    if (result.mean > 0) result.relative = result.rootMeanSquare / result.mean;
     result.isKnown = known > 0;
     return result;
 }
@@ -67,28 +67,25 @@ std::string errorText(const PictureError& error) {
     return text;
 }
 
+double ClampBias::relativeTo(double pictureMean) const {
+    const double lost = (meanLost[0] + meanLost[1] + meanLost[2]) / 3;
+    return pictureMean + lost > 0 ? lost / (pictureMean + lost) : 0;
+}
+
 ClampBias clampBias(const RenderJob& job) {
-    const Film& film = job.film();
-    const ClampedLight& clamped = job.counts().clamped;
+    const RenderCounts counts = job.countsSoFar();
     ClampBias bias;
     bias.limit = job.scene().film.maxComponent;
-    bias.samples = clamped.samples;
-    if (!clamped.samples) return bias;
-    double lost = 0, kept = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        bias.meanLost[c] = clamped.sum(c) / double(job.counts().paths) * job.scene().filter.normalization();
-        lost += bias.meanLost[c];
-    }
-    for (std::size_t i = 0; i < film.pixelCount(); ++i)
-        for (const double mean : film.estimate(i).mean)
-            kept += mean / double(film.pixelCount());
-    if (kept + lost > 0) bias.relative = lost / (kept + lost);
+    bias.samples = counts.clamped.samples;
+    if (bias.samples)
+        for (std::size_t c = 0; c < 3; ++c)
+            bias.meanLost[c] = counts.clamped.sum(c) / double(counts.paths) * job.scene().filter.normalization();
     return bias;
 }
 
-std::string clampText(const ClampBias& bias) {
-    return fmt::format("{} sample{} limited to {}: a bias; on average the picture is too dark by {:.2g} %", bias.samples,
-                       bias.samples == 1 ? "" : "s", bias.limit, 100 * bias.relative);
+std::string clampText(const ClampBias& bias, const PictureError& error) {
+    return fmt::format("{} sample{} limited to {}: a bias; on average the picture is too dark by {:.2g} %",
+                       bias.samples, bias.samples == 1 ? "" : "s", bias.limit, 100 * bias.relativeTo(error.mean));
 }
 
 RenderStatistics statisticsOf(const RenderJob& job) {
@@ -125,7 +122,7 @@ std::string statisticsText(const RenderStatistics& s) {
                                        bytesText(double(s.filmBytes)), bytesText(double(s.geometryBytes)),
                                        bytesText(double(s.textureBytes)), bytesText(double(s.peakMemoryBytes))));
     text += line("invalid samples", std::to_string(s.counts.invalid));
-    if (s.clamp.limit < kInfinity) text += line("clamped", clampText(s.clamp));
+    if (s.clamp.limit < kInfinity) text += line("clamped", clampText(s.clamp, s.error));
     text += line("standard error", errorText(s.error));
     return text;
 }
@@ -155,7 +152,10 @@ std::string statisticsJson(const RenderStatistics& s, const RenderJob& job) {
           {"relative", known(s.error.relative)},
           {"unknown_pixels", s.error.unknownPixels}}},
     };
-    if (recipe.contains("clamp")) json["bias"] = {{"clamp", recipe["clamp"]}};
+    if (recipe.contains("clamp")) {
+        json["bias"]["clamp"] = recipe["clamp"];
+        json["bias"]["clamp"]["relative"] = s.clamp.relativeTo(s.error.mean);
+    }
     return json.dump();
 }
 

@@ -15,7 +15,8 @@ namespace penumbra {
 /// known.
 struct PictureError {
     double rootMeanSquare = 0;
-    double relative = 0;              ///< to the mean of the picture; 0 for a black one
+    double mean = 0;                  ///< of all pixels and channels
+    double relative = 0;              ///< to the mean; 0 for a black picture
     std::uint64_t unknownPixels = 0;  ///< pixels with a channel of unknown error
     bool isKnown = false;             ///< of any pixel
 };
@@ -28,12 +29,12 @@ struct ClampBias {
     float limit = kInfinity;                ///< infinity: none, and so no bias
     std::uint64_t samples = 0;              ///< that were above the limit
     std::array<double, 3> meanLost{0, 0, 0};  ///< an unbiased estimate of what is missing from the picture's mean, by channel
-    double relative = 0;                    ///< of all channels together, to what the mean would be
+    /// To the mean that the picture, which has this one, should have: of all channels together.
+    double relativeTo(double pictureMean) const;
 };
-/// REQUIRES: the job has run.
 ClampBias clampBias(const RenderJob& job);
 /// "3 samples limited to 10: on average the picture is too dark by 1.2 %".
-std::string clampText(const ClampBias& bias);
+std::string clampText(const ClampBias& bias, const PictureError& error);
 
 struct RenderStatistics {
     RenderTimes times;

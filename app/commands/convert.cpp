@@ -77,15 +77,16 @@ std::unique_ptr<std::vector<float>> channelOf(const ExrFile& file, const std::st
     return nullptr;
 }
 
-/// The channels LAYER.R, LAYER.G, LAYER.B (or X, Y, Z), or the one channel of that name as grey.
+/// The channels LAYER.R, LAYER.G, LAYER.B (or X, Y, Z, or U, V and 0), or the one channel of that name as grey.
 Picture readLayer(const std::string& path, const std::string& layer) {
     const ExrFile file = readExr(path);
     std::unique_ptr<std::vector<float>> planes[3];
-    for (const char* suffixes : {"RGB", "XYZ"})
-        for (int c = 0; c < 3; ++c)
+    for (const char* suffixes : {"RGB", "XYZ", "UV"})
+        for (int c = 0; c < 3 && suffixes[c]; ++c)
             if (!planes[c]) planes[c] = channelOf(file, layer + "." + suffixes[c]);
+    if (planes[0] && planes[1] && !planes[2]) planes[2] = std::make_unique<std::vector<float>>(planes[0]->size(), 0.f);
     const auto grey = channelOf(file, layer);
-    const bool whole = planes[0] && planes[1] && planes[2];
+    const bool whole = planes[0] && planes[1];
     if (!whole && !grey) {
         const std::vector<std::string> known = layersOf(file);
         throw Error(ErrorKind::Usage,

@@ -42,8 +42,8 @@ const std::atomic<bool>& stopRequested() {
     return stop;
 }
 
-void throwIfInterrupted() {
-    if (stop) throw Interrupted{received};
+void throwIfInterrupted(const std::string& outcome) {
+    if (stop) throw Interrupted{received, outcome};
 }
 
 }  // namespace penumbra

@@ -7,12 +7,14 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 
 namespace penumbra {
 
 /// Thrown where a signal ended the work; main() turns it into the exit code.
 struct Interrupted {
     int signal;
+    std::string outcome;  ///< what became of the output
 };
 
 /// Call it once, before there are threads.
@@ -29,6 +31,6 @@ public:
 
 const std::atomic<bool>& stopRequested();
 /// Throws Interrupted where a stop is requested.
-void throwIfInterrupted();
+void throwIfInterrupted(const std::string& outcome);
 
 }  // namespace penumbra

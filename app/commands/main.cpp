@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
     } catch (const Error& e) {
         return fail(e.kind(), e.what());
     } catch (const Interrupted& e) {
-        printError("interrupted: no picture was written");
+        printError("interrupted: " + e.outcome);
         return 128 + e.signal;
     } catch (const std::bad_alloc&) {
         return fail(ErrorKind::OutOfMemory, "out of memory");

@@ -36,25 +36,18 @@ ProgressDisplay::ProgressDisplay(const RenderJob& job, ProgressStyle style, int 
       style_(style),
       descriptor_(descriptor),
       terminal_(errorIsTerminal()) {
-    if (style_ != ProgressStyle::None) thread_ = std::thread([this] { loop(); });
+    if (style_ == ProgressStyle::None) return;
+    const Ticker::Pause pause = style_ == ProgressStyle::People && terminal_ ? kRedraw : kLine;
+    ticker_ = std::make_unique<Ticker>(pause, [this, pause] {
+        show(false);
+        return pause;
+    });
 }
 
 ProgressDisplay::~ProgressDisplay() {
-    if (!thread_.joinable()) return;
-    {
-        const std::lock_guard lock(mutex_);
-        ended_ = true;
-    }
-    wake_.notify_one();
-    thread_.join();
+    if (!ticker_) return;
+    ticker_.reset();
     show(true);
-}
-
-void ProgressDisplay::loop() {
-    const auto pause = style_ == ProgressStyle::People && terminal_ ? kRedraw : kLine;
-    std::unique_lock lock(mutex_);
-    while (!wake_.wait_for(lock, pause, [this] { return ended_; }))
-        show(false);
 }
 
 void ProgressDisplay::show(bool last) {

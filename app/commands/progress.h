@@ -9,12 +9,11 @@
 #pragma once
 
 #include "app/batch/render_job.h"
+#include "core/base/ticker.h"
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <memory>
 #include <string>
-#include <thread>
 
 namespace penumbra {
 
@@ -30,7 +29,6 @@ public:
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
 private:
-    void loop();
     void show(bool last);
     void drawBar(bool last);
     void printPercent(bool last);
@@ -48,10 +46,7 @@ private:
     const bool terminal_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     int printedPercent_ = -1;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    bool ended_ = false;
-    std::thread thread_;  // last: the loop uses all above
+    std::unique_ptr<Ticker> ticker_;  // last: it uses all above
 };
 
 /// Now, as "2026-11-26T01:02:03Z".

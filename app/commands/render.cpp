@@ -1,5 +1,7 @@
 // penumbra render: from a scene to a picture, or to the value of one sample.
 
+#include "app/batch/live_display.h"
+#include "app/batch/partial_writer.h"
 #include "app/batch/recipe.h"
 #include "app/batch/render_job.h"
 #include "app/batch/statistics.h"
@@ -47,6 +49,8 @@ struct RenderRequest {
     bool quiet = false, strict = false;
     std::optional<std::pair<int, int>> pixel;
     std::optional<std::uint32_t> sample;
+    std::string writePartial;  ///< seconds between pictures that are written meanwhile; empty: none are
+    std::optional<DisplayAddress> display;
     std::string statistics;  ///< "text", "json", or empty: none
     ProgressStyle progress = ProgressStyle::People;
     int progressDescriptor = STDOUT_FILENO;  ///< of the JSON lines
@@ -106,6 +110,16 @@ float parseClamp(const std::string& text) {
     return float(Arguments::parseReal("--clamp", text, kLeast, kMost));
 }
 
+/// Seconds.
+double parseInterval(const std::string& text) {
+    constexpr double kLeast = 0.01, kMost = 1e6;
+    return Arguments::parseReal("--write-partial", text, kLeast, kMost);
+}
+
+DisplayAddress parseDisplay(const std::string& text) try { return parseDisplayAddress(text); } catch (const Error& e) {
+    throw Error(e.kind(), std::string("--display-server: ") + e.what());
+}
+
 void checkRequest(const RenderRequest& request) {
     if (request.options.scene.empty())
         throw Error(ErrorKind::Usage, "a scene is missing: penumbra render SCENE -o PICTURE");
@@ -113,6 +127,7 @@ void checkRequest(const RenderRequest& request) {
         throw Error(ErrorKind::Usage, "--pixel and --sample belong together: they name the sample to replay");
     if (request.options.build.cropWindow && request.options.build.pixelBounds)
         throw Error(ErrorKind::Usage, "--cropwindow and --pixelbounds say the same thing: give one of them");
+    if (!request.writePartial.empty()) parseInterval(request.writePartial);
     if (!request.statistics.empty() && request.statistics != "text" && request.statistics != "json")
         throw Error(ErrorKind::Usage, "--stats: unknown form " + quote(request.statistics) + "; known: text, json");
 }
@@ -162,7 +177,7 @@ void reportPicture(const RenderJob& job, const std::string& path, const std::str
                           errorText(statistics.error)));
     if (!job.film().aovs().empty() && !isExrPath(path)) printWarning(pathText(path) + ": only an EXR holds AOVs");
     if (!through.empty()) printNote("colours went through " + through);
-    if (statistics.clamp.samples) printNote(clampText(statistics.clamp));
+    if (statistics.clamp.samples) printNote(clampText(statistics.clamp, statistics.error));
 }
 
 void printStatistics(const RenderJob& job, const RenderRequest& request, const RenderStatistics& statistics) {
@@ -181,17 +196,36 @@ void printFinalEvent(const RenderJob& job, const std::string& path, const Render
     printTo(descriptor, line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-/// Renders and writes the picture; a signal meanwhile ends it with no picture, or with the whole one.
+/// Ends a render that a signal stopped: with what there is where partial pictures were asked for, else with no picture.
+void stopEarly(const RenderJob& job, const RenderRequest& request, const std::string& path) {
+    std::string outcome = "no picture was written";
+    if (!request.writePartial.empty()) {
+        job.writePicture(path);
+        const RenderProgress& p = job.progress();
+        outcome = fmt::format("{} holds {:.0f} % of the samples", pathText(path),
+                              std::floor(100 * double(p.samplesDone) / double(p.samples)));
+    }
+    throwIfInterrupted(outcome);
+}
+
+/// Renders and writes the picture; a signal meanwhile ends it early, or with the whole picture.
 void renderPicture(RenderJob& job, const RenderRequest& request, const std::string& path) {
     const InterruptGuard guard;
+    const auto warn = [&request](const std::string& text) {
+        if (!request.quiet) printWarning(text);
+    };
+    std::optional<LiveDisplay> display;  // until the picture is on disk, for which it must not be waited
+    if (request.display) display.emplace(job, *request.display, fmt::format("{} ({})", path, ::getpid()), warn);
     const ProgressStyle style =
         request.quiet && request.progress == ProgressStyle::People ? ProgressStyle::None : request.progress;
     bool whole = false;
     {
-        const ProgressDisplay display(job, style, request.progressDescriptor);
+        std::optional<PartialWriter> partial;
+        if (!request.writePartial.empty()) partial.emplace(job, path, parseInterval(request.writePartial), warn);
+        const ProgressDisplay progress(job, style, request.progressDescriptor);
         whole = job.run(&stopRequested());
     }
-    if (!whole) throwIfInterrupted();
+    if (!whole) stopEarly(job, request, path);
     const std::string through = job.writePicture(path);
     const RenderStatistics statistics = statisticsOf(job);
     if (!request.quiet) reportPicture(job, path, through, statistics);
@@ -211,7 +245,9 @@ void runRender(const RenderRequest& request) {
     const ThreadLimit threads(chooseThreads(request.threads));
     Warnings warnings(request.strict);
     WarningPrinter printer(warnings, request.quiet);
-    RenderJob job(request.options, warnings);
+    RenderOptions options = request.options;
+    options.isWatched = !request.writePartial.empty() || request.display;
+    RenderJob job(options, warnings);
     printer.flush();
     if (request.pixel) return replay(job, request);
     const std::string path = request.outfile.value_or(job.scene().film.fileName);
@@ -240,10 +276,15 @@ void addOutput(Arguments& arguments, RenderRequest& r) {
     arguments.text("-o,--outfile", "FILE",
                    "the picture: .exr with its error, or .png .jpg .tif .hdr .pfm (default: the film's filename)",
                    [&r](const std::string& t) { r.outfile = t; });
-    arguments.text("--aov", "NAMES",
-                   "more channels of an EXR, with commas between: albedo, N, Ns, P, Z, uv, time, or all (\"penumbra list "
-                   "aovs\" says what they are); none for the film's own",
-                   [&r](const std::string& t) { r.options.build.aovs = parseAovs(t); });
+    arguments.text(
+        "--aov", "NAMES",
+        "more channels of an EXR, with commas between: albedo, N, Ns, P, Z, uv, time, or all (\"penumbra list "
+        "aovs\" says what they are); none for the film's own",
+        [&r](const std::string& t) { r.options.build.aovs = parseAovs(t); });
+    arguments.optionalText("--write-partial", "30", "SECONDS", r.writePartial,
+                           "keeps what there is of the picture on disk meanwhile, whole files only (every 30 seconds)");
+    arguments.text("--display-server", "HOST:PORT", "shows the picture in a viewer (tev) while it is rendered",
+                   [&r](const std::string& t) { r.display = parseDisplay(t); });
     arguments.flag("--quiet", r.quiet, "say nothing but errors");
     arguments.optionalText("--stats", "text", "json", r.statistics,
                            "what the render took: for people on standard error, as JSON on standard output");

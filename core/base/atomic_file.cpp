@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <random>
@@ -69,14 +71,28 @@ std::string folderOf(const std::string& path) {
     return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-std::string temporaryName(const std::string& target) {
+/// What the names of this machine's temporary files for that target begin with; then come process and a random number.
+std::string temporaryPrefix(const std::string& target) {
     constexpr std::size_t kLongestPart = 100;  // names may have 255 bytes
     char host[64] = "";
     ::gethostname(host, sizeof host - 1);
-    const std::string name = target.substr(target.rfind('/') + 1);
+    return fmt::format(".{}.tmp.{}.", target.substr(target.rfind('/') + 1).substr(0, kLongestPart), host);
+}
+
+std::string temporaryName(const std::string& target) {
     std::random_device random;
-    return fmt::format("{}/.{}.tmp.{}.{}.{:08x}", folderOf(target), name.substr(0, kLongestPart), host, ::getpid(),
-                       random());
+    return fmt::format("{}/{}{}.{:08x}", folderOf(target), temporaryPrefix(target), ::getpid(), random());
+}
+
+/// The process in "123.0123abcd"; 0 where it is none.
+pid_t processIn(std::string_view rest) {
+    constexpr std::size_t kDigits = 8;
+    pid_t process = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), process);
+    const std::string_view random(end, std::size_t(rest.data() + rest.size() - end));
+    const bool isOurs = error == std::errc() && process > 0 && random.size() == 1 + kDigits && random[0] == '.' &&
+                        random.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos;
+    return isOurs ? process : 0;
 }
 
 }  // namespace
@@ -163,6 +179,19 @@ void AtomicFile::commitByRename() {
         fail(ErrorKind::CannotCreate, path_, "cannot rename to it", errno);
     temporary_.clear();
     syncFolder(folderOf(target_), path_);
+}
+
+void removeAbandonedTemporaries(const std::string& path) {
+    std::error_code ignored;
+    const auto resolved = std::filesystem::canonical(path, ignored);
+    const std::string target = resolved.empty() ? path : resolved.string(), prefix = temporaryPrefix(target);
+    std::filesystem::directory_iterator entries(folderOf(target), ignored);
+    for (; !ignored && entries != std::filesystem::directory_iterator(); entries.increment(ignored)) {
+        const std::string name = entries->path().filename().string();
+        if (!name.starts_with(prefix)) continue;
+        const pid_t process = processIn(std::string_view(name).substr(prefix.size()));
+        if (process > 0 && ::kill(process, 0) == -1 && errno == ESRCH) ::unlink(entries->path().c_str());
+    }
 }
 
 void writeFileAtomically(const std::string& path, std::string_view bytes) {

@@ -50,6 +50,10 @@ private:
     bool inPlace_ = false;
 };
 
+/// Removes what killed processes of this machine left beside the path: their temporary files. What cannot be removed
+/// stays.
+void removeAbandonedTemporaries(const std::string& path);
+
 /// The whole file at once.
 void writeFileAtomically(const std::string& path, std::string_view bytes);
 

@@ -6,6 +6,7 @@
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +15,13 @@ namespace OCIO = OCIO_NAMESPACE;
 
 namespace penumbra {
 namespace {
+
+/// What the library has to say, as one line.
+std::string reasonOf(const std::exception& e) {
+    std::string text = e.what();
+    std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+    return text;
+}
 
 constexpr const char* kAces = "ACES2065-1";
 constexpr const char* kScreen = "sRGB";
@@ -102,7 +110,7 @@ LoadedConfig loadConfig(const std::string& given) {
         config->validate();
         return {config, source};
     } catch (const std::exception& e) {
-        throw Error(ErrorKind::Configuration, fmt::format("{}: {}", source, e.what()));
+        throw Error(ErrorKind::Configuration, fmt::format("{}: {}", source, reasonOf(e)));
     }
 }
 
@@ -207,7 +215,7 @@ DisplayTransform::DisplayTransform(const DisplayOptions& options, const ColorSpa
     } catch (const Error&) {
         throw;
     } catch (const std::exception& e) {
-        throw Error(ErrorKind::Configuration, fmt::format("{}: {}", loaded.source, e.what()));
+        throw Error(ErrorKind::Configuration, fmt::format("{}: {}", loaded.source, reasonOf(e)));
     }
 }
 

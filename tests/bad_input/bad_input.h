@@ -30,6 +30,9 @@ struct Case {
     std::string says;  ///< how a line of standard error must begin; empty: there must be none
     std::vector<std::string> options{};
     std::vector<std::string> command{"render", "scene.pbrt", "-o", "out.exr"};
+    std::vector<std::pair<std::string, std::string>> environment{};
+    std::string threads = "2";  ///< empty: none are asked for
+    bool hasPlace = true;       ///< what it says names a file, a line and a column
 };
 
 /// A scene of one file.
