@@ -11,6 +11,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <nlohmann/json.hpp>
 
 #include <cstring>
 #include <map>
@@ -20,6 +21,10 @@ namespace {
 
 using namespace test;
 using namespace std::chrono_literals;
+
+nlohmann::json recipeOf(const ExrFile& file) {
+    return nlohmann::json::parse(recipeText(file));
+}
 
 /// Of all pixels together, as the file's channel says.
 double samplesIn(const ExrFile& file) {

@@ -4,6 +4,7 @@
 #include "tests/picture_files.h"
 
 #include <sys/resource.h>
+#include <nlohmann/json.hpp>
 
 #include <charconv>
 #include <cmath>
@@ -27,6 +28,10 @@ protected:
         return readBytes(folder.path(name));
     }
 };
+
+nlohmann::json recipeOf(const ExrFile& file) {
+    return nlohmann::json::parse(recipeText(file));
+}
 
 /// The pixels of a window of the picture, of all channels, as bits: equal where the same window holds the same.
 std::vector<std::uint32_t> bitsOf(const ExrFile& file, PixelWindow window) {

@@ -5,7 +5,6 @@
 #include "tests/run_program.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <filesystem>
@@ -14,11 +13,12 @@
 
 namespace penumbra {
 
-inline nlohmann::json recipeOf(const ExrFile& file) {
+/// The JSON of how the picture is made again.
+inline std::string recipeText(const ExrFile& file) {
     for (const auto& [name, value] : file.header.attributes)
-        if (name == "penumbra") return nlohmann::json::parse(std::get<std::string>(value));
+        if (name == "penumbra") return std::get<std::string>(value);
     ADD_FAILURE() << "no recipe";
-    return {};
+    return "{}";
 }
 
 /// What ought not to be lost: names of temporary files have ".tmp." in them.
