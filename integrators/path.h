@@ -118,10 +118,12 @@ private:
                      const UInt<F>& material, const Mask<F>& goesOn) const {
         const Scene& scene = step.scene;
         const F coneWidth = coneWidthAt(scene, g, hit);
-        const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), shadingContext(scene, at, coneWidth));
+        const auto numbers = scene.sampler.at<F>(g.address, step.vertex);
+        ShadingContext<F> context = shadingContext(scene, at, coneWidth);
+        if constexpr (kIsEstimate<M>) context.chance = numbers.get1(Dim::Material);
+        const auto bsdf = M::bsdf(scene.materials.template records<M, F>(material), context);
         const Vec3<F> wo = at.frame.toLocal(-g.direction);
 
-        const auto numbers = scene.sampler.at<F>(g.address, step.vertex);
         // At the first vertex there is nothing yet but emission.
         F gathered(0.f);
         if (roulette_ == RouletteRule::Late && step.vertex > 1) gathered = brightness<F>(step.batch.slots, g.slot);

@@ -9,6 +9,11 @@
 //   static constexpr PluginInfo kInfo;
 //   static constexpr bool kUsesLobe;         // false: sample() does not look at uLobe, which then need not be drawn
 //   static constexpr bool kPassThrough;      // true: a mere border of media, which rays cross as if it were not there
+//   static constexpr bool kEstimates;        // (may be absent, for false) true: evaluate() is an unbiased estimate, by
+//                                            // numbers that follow from ShadingContext::chance
+//   static constexpr bool kReciprocal;       // (may be absent, for true) false: a model that is not
+//   static constexpr bool kNeedsUv;          // (may be absent, for false) true: looks at uv, textures or not
+//   bool needsTangent() const;               // (may be absent, for false) true: the x axis of the frame matters
 //   template <class F> using Bsdf = ...;     // the closure it builds
 //   static M make(MaterialInput&);           // from parameters, at scene build (cold)
 //   template <class F> static Bsdf<F> bsdf(const Records<F, M>&, const ShadingContext<F>&);
@@ -27,6 +32,14 @@
 #include "core/math/vector.h"
 
 namespace penumbra {
+
+/// Whether the closures of a material estimate: two hits with the same directions differ, and only their mean is the
+/// BSDF.
+template <class M>
+inline constexpr bool kIsEstimate = requires { requires M::kEstimates; };
+
+template <class M>
+inline constexpr bool kIsReciprocal = !requires { requires !M::kReciprocal; };
 
 template <class F>
 struct BsdfEval {

@@ -1,7 +1,7 @@
 // Quadrature of rough and smooth coats.
 #include "materials/coat_table.h"
 
-#include "materials/fresnel.h"
+#include "materials/coat_interface.h"
 #include "materials/visible_average.h"
 
 namespace penumbra {
@@ -11,15 +11,12 @@ using F = Lanes8f;
 
 /// The fraction of light from w, inside the coat, that the interface sends back to the base: attenuated on both ways.
 double innerReflection(const Coat& coat, const Ggx<float>& ggx, const Vec3<float>& w) {
-    const F inverseEta(1.f / coat.eta), thickness(coat.opticalThickness);
+    const F eta(coat.eta), inverseEta(1.f / coat.eta), thickness(coat.opticalThickness);
     double sum = 0;
     averageOverVisible(ggx, w, [&](const Ggx<F>& wide, const Vec3<F>& from, const Vec3<F>& m, double weight) {
-        const F c = clamp(dot(from, m), F(0.f), F(1.f));
-        const Vec3<F> back = m * (F(2.f) * c) - from;
-        const F path = F(1.f) / max(from.z, F(1e-6f)) + F(1.f) / max(back.z, F(1e-6f));
-        const F value =
-            dielectricFresnel(c, inverseEta).reflectance * wide.shadowing(from, back) * exp(-thickness * path);
-        sum += weight * sumOfLanes(select(back.z > F(0.f), value, F(0.f)));
+        const FacetMeeting<F> met = meetFacet(wide, from, m, inverseEta, eta);
+        const F path = F(1.f) / max(from.z, F(1e-6f)) + F(1.f) / max(met.reflected.z, F(1e-6f));
+        sum += weight * sumOfLanes(select(met.reflected.z > F(0.f), met.up * exp(-thickness * path), F(0.f)));
     });
     return sum;
 }
@@ -48,18 +45,13 @@ TableAverages basesOf(const Coat& coat) {
 }  // namespace
 
 CoatAlbedo roughCoatAlbedo(const Coat& coat, const Ggx<float>& ggx, const Vec3<float>& w) {
-    const F eta(coat.eta), thickness(coat.opticalThickness);
+    const F eta(coat.eta), inverseEta = F(1.f) / eta, thickness(coat.opticalThickness);
     CoatAlbedo result;
     averageOverVisible(ggx, w, [&](const Ggx<F>& wide, const Vec3<F>& from, const Vec3<F>& m, double weight) {
-        const F c = clamp(dot(from, m), F(0.f), F(1.f));
-        const DielectricFresnel<F> fresnel = dielectricFresnel(c, eta);
-        const Vec3<F> reflected = m * (F(2.f) * c) - from;
-        const Vec3<F> refracted = (m * (c - fresnel.etaCosRefracted) - from) * (F(1.f) / eta);
-        const F up = fresnel.reflectance * wide.shadowing(from, reflected);
-        const F down = (F(1.f) - fresnel.reflectance) * wide.shadowing(from, refracted) *
-                       exp(-thickness / max(-refracted.z, F(1e-6f)));
-        result.reflected += weight * sumOfLanes(select(reflected.z > F(0.f), up, F(0.f)));
-        result.transmitted += weight * sumOfLanes(select(refracted.z < F(0.f), down, F(0.f)));
+        const FacetMeeting<F> met = meetFacet(wide, from, m, eta, inverseEta);
+        const F down = met.down * exp(-thickness / max(-met.refracted.z, F(1e-6f)));
+        result.reflected += weight * sumOfLanes(select(met.reflected.z > F(0.f), met.up, F(0.f)));
+        result.transmitted += weight * sumOfLanes(select(met.refracted.z < F(0.f), down, F(0.f)));
     });
     return result;
 }

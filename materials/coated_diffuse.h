@@ -8,13 +8,12 @@
 // So this closure evaluates it exactly, without noise; a smooth coat's T is (1 - Fresnel) exp(-thickness / cos
 // refracted).
 //
-// Scattering in the gap (`albedo` > 0) is not simulated: gaps are optically thin, and light that scatters mostly goes
-// on to where it went anyway, so only the absorbed part of the extinction, (1 - albedo) thickness, counts. A warning
-// says so. Sampling: the coat's reflection or the cosine lobe, in proportion to what each reflects from wo. Thread
-// safety: plain values. Sources: Guo, Hasan & Zhao, SIGGRAPH Asia 2018 (the walk); Saunderson 1942 (the series).
+// Sampling: the coat's reflection or the cosine lobe, in proportion to what each reflects from wo. Thread safety: plain
+// values. Sources: Guo, Hasan & Zhao, SIGGRAPH Asia 2018 (the walk); Saunderson 1942 (the series).
 #pragma once
 
 #include "core/math/warps.h"
+#include "materials/coat_interface.h"
 #include "materials/coat_table.h"
 #include "materials/dielectric.h"
 
@@ -44,18 +43,6 @@ struct CoatReader {
                 select(table.smooth, smoothValue.reflected, reflected)};
     }
 };
-
-/// sum_{k < count} x^k per channel, by Horner's scheme; stops early where more terms change nothing.
-template <class F>
-Spectrum<F> geometricSum(const Spectrum<F>& x, const UInt<F>& count) {
-    const Spectrum<F> one = Spectrum<F>::constant(F(1.f));
-    Spectrum<F> sum = Spectrum<F>::constant(F(0.f));
-    for (std::uint32_t k = 0;; ++k) {
-        const Spectrum<F> next = select(UInt<F>(k) < count, sum * x + one, sum);
-        if (all((next.r == sum.r) & (next.g == sum.g) & (next.b == sum.b))) return sum;
-        sum = next;
-    }
-}
 
 template <class F>
 struct CoatedDiffuseBsdf {

@@ -64,7 +64,62 @@ private:
     }
 };
 
-struct ConductorMaterial : RoughnessInputs, EnergyInputs {
+/// The members that say which metal, and how they are read from a scene and at a hit. Derive from it.
+struct ConductorInputs {
+    SpectrumInput reflectance{};
+    std::uint32_t byReflectance = 0;
+    Spectrum<float> difference{}, product{};  ///< of ConductorRule, where not by reflectance
+
+    /// `prefix` comes before the names of eta and k. `above`: the index of what lies over the metal.
+    static ConductorInputs make(MaterialInput& input, const std::string& prefix = {}, float above = 1.f) {
+        ConductorInputs m;
+        const std::string eta = prefix + "eta", k = prefix + "k";
+        const ParameterSet& parameters = input.parameters();
+        if (parameters.findAny("reflectance")) {
+            if (parameters.findAny(eta) || parameters.findAny(k))
+                input.fail("a conductor takes either reflectance or " + eta + " and " + k + ", not both");
+            m.byReflectance = 1;
+            m.reflectance = input.albedo("reflectance", {0.5f, 0.5f, 0.5f});
+            return m;
+        }
+        const ConductorIndex index = input.conductorIndex(eta, k);
+        // The square of the square must stay finite; reflectance is 1 to float precision long before.
+        const auto squared = [above](const Rgb& x) {
+            const Rgb relative = clamp((1.f / above) * x, 0.f, 1e4f);
+            return relative * relative;
+        };
+        const Rgb eta2 = squared(index.eta), k2 = squared(index.k), d = eta2 - k2, p = 4.f * (eta2 * k2);
+        m.difference = {d.r, d.g, d.b};
+        m.product = {p.r, p.g, p.b};
+        return m;
+    }
+
+    /// The reflectance of M, a type derived from this one, in lanes that go by it.
+    template <class F, class M>
+    static Spectrum<F> reflectanceOf(const Records<F, M>& m, const ShadingContext<F>& at) {
+        if (none(isByReflectance(m))) return Spectrum<F>::constant(F(0.f));
+        return at.spectrum(m, static_cast<SpectrumInput M::*>(&ConductorInputs::reflectance));
+    }
+    /// `perSquare` is 1 / n^2 of what lies over the metal.
+    template <class F, class M>
+    static ConductorConstants<Spectrum<F>> index(const Records<F, M>& m, const Spectrum<F>& reflectance, F perSquare) {
+        const ConductorConstants<Spectrum<F>> given{m(static_cast<Spectrum<float> M::*>(&ConductorInputs::difference)),
+                                                    m(static_cast<Spectrum<float> M::*>(&ConductorInputs::product))};
+        const Mask<F> byReflectance = isByReflectance(m);
+        if (none(byReflectance)) return given;
+        const auto r = constantsOfReflectance(reflectance.r), g = constantsOfReflectance(reflectance.g),
+                   b = constantsOfReflectance(reflectance.b);
+        const Spectrum<F> d{r.difference, g.difference, b.difference}, p{r.product, g.product, b.product};
+        return {select(byReflectance, d * perSquare, given.difference),
+                select(byReflectance, p * sqr(perSquare), given.product)};
+    }
+    template <class F, class M>
+    static Mask<F> isByReflectance(const Records<F, M>& m) {
+        return m(static_cast<std::uint32_t M::*>(&ConductorInputs::byReflectance)) != UInt<F>(0u);
+    }
+};
+
+struct ConductorMaterial : RoughnessInputs, EnergyInputs, ConductorInputs {
     static constexpr ParameterInfo kParameters[] = {
         {"spectrum", "eta", "metal-Cu-eta", "index of refraction"},
         {"spectrum", "k", "metal-Cu-k", "absorption coefficient"},
@@ -82,17 +137,15 @@ struct ConductorMaterial : RoughnessInputs, EnergyInputs {
     template <class F>
     using Bsdf = ConductorBsdf<F>;
 
-    SpectrumInput reflectance{};
-    std::uint32_t byReflectance = 0;
-    Spectrum<float> difference{}, product{};  ///< of ConductorRule, where not by reflectance
-    std::uint32_t schlick = 0;
+    std::uint32_t schlick = 0;  ///< difference is then the reflectance of perpendicular light
     Spectrum<float> mean{};       ///< meanReflectance, where not by reflectance
     std::uint32_t meanTable = 0;  ///< of it, where by reflectance
 
     static ConductorMaterial make(MaterialInput& input) {
-        ConductorMaterial m{RoughnessInputs::make(input), {}};
+        ConductorMaterial m{RoughnessInputs::make(input), {}, ConductorInputs::make(input)};
         m.schlick = readSchlick(input);
-        m.readIndex(input);
+        if (m.schlick && !m.byReflectance)
+            m.difference = conductorReflectance(1.f, ConductorConstants<Spectrum<float>>{m.difference, m.product});
         if (input.parameters().boolean("multiscatter", false)) m.compensate(input);
         return m;
     }
@@ -101,17 +154,11 @@ struct ConductorMaterial : RoughnessInputs, EnergyInputs {
     static ConductorBsdf<F> bsdf(const Records<F, ConductorMaterial>& m, const ShadingContext<F>& at) {
         using M = ConductorMaterial;
         const SurfaceRoughness<F> rough = surface(m, at);
-        ConductorRule<F> rule{{m(&M::difference), m(&M::product)}, m(&M::schlick) != UInt<F>(0u)};
-        const Mask<F> byReflectance = m(&M::byReflectance) != UInt<F>(0u);
-        Spectrum<F> reflectance = Spectrum<F>::constant(F(0.f));
-        if (any(byReflectance)) {
-            reflectance = at.spectrum(m, &M::reflectance);
-            const auto r = constantsOfReflectance(reflectance.r), g = constantsOfReflectance(reflectance.g),
-                       b = constantsOfReflectance(reflectance.b);
-            const Spectrum<F> difference{r.difference, g.difference, b.difference};
-            rule.index.difference = select(byReflectance, select(rule.schlick, reflectance, difference), rule.index.difference);
-            rule.index.product = select(byReflectance, {r.product, g.product, b.product}, rule.index.product);
-        }
+        const Mask<F> schlick = m(&M::schlick) != UInt<F>(0u), byReflectance = isByReflectance(m);
+        const Spectrum<F> reflectance = reflectanceOf(m, at);
+        ConductorRule<F> rule{index(m, reflectance, F(1.f)), schlick};
+        if (any(byReflectance & schlick))
+            rule.index.difference = select(byReflectance & schlick, reflectance, rule.index.difference);
         const Mask<F> multiscatter = m(&M::multiscatter) != UInt<F>(0u);
         MetalCompensation<F> compensation{Mask<F>(false), {}, F(0.f), {}, F(0.f)};
         if (any(multiscatter)) {
@@ -123,23 +170,6 @@ struct ConductorMaterial : RoughnessInputs, EnergyInputs {
     }
 
 private:
-    void readIndex(MaterialInput& input) {
-        const ParameterSet& parameters = input.parameters();
-        if (parameters.findAny("reflectance")) {
-            if (parameters.findAny("eta") || parameters.findAny("k"))
-                input.fail("a conductor takes either reflectance or eta and k, not both");
-            byReflectance = 1;
-            reflectance = input.albedo("reflectance", {0.5f, 0.5f, 0.5f});
-            return;
-        }
-        const ConductorIndex index = input.conductorIndex("eta", "k");
-        // The square of the square must stay finite; reflectance is 1 to float precision long before.
-        const Rgb eta = clamp(index.eta, 0.f, 1e4f), k = clamp(index.k, 0.f, 1e4f);
-        const Rgb d = eta * eta - k * k, p = 4.f * (eta * eta * k * k);
-        difference = {d.r, d.g, d.b};
-        product = {p.r, p.g, p.b};
-        if (schlick) difference = conductorReflectance(1.f, ConductorConstants<Spectrum<float>>{difference, product});
-    }
     void compensate(MaterialInput& input) {
         static_cast<EnergyInputs&>(*this) = mirrorEnergy(input, *this);
         if (byReflectance)

@@ -13,10 +13,10 @@
 
 namespace penumbra {
 
-/// Reads the parameter eta of a dielectric or a coat; an index no matter has is an error.
-inline float readInterfaceIndex(MaterialInput& input) {
-    const float eta = input.dielectricIndex("eta", 1.5f);
-    if (!(eta >= 0.01f && eta <= 100.f)) input.fail("eta must lie between 0.01 and 100");
+/// Reads the parameter that is the index of a dielectric or a coat; an index no matter has is an error.
+inline float readInterfaceIndex(MaterialInput& input, std::string_view name = "eta") {
+    const float eta = input.dielectricIndex(name, 1.5f);
+    if (!(eta >= 0.01f && eta <= 100.f)) input.fail(std::string(name) + " must lie between 0.01 and 100");
     return eta;
 }
 

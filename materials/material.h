@@ -16,7 +16,7 @@
 
 namespace penumbra {
 
-/// A colour in [0, 1] that is constant or comes from a texture (of the role Albedo). Read it with
+/// A colour that is constant or comes from a texture. Read it with
 /// ShadingContext::spectrum.
 struct SpectrumInput {
     Spectrum<float> constant{};
@@ -56,6 +56,8 @@ public:
     virtual ~MaterialInput() = default;
     /// "spectrum" texture, or any spectrum as a reflectance; constants are clamped to [0, 1].
     virtual SpectrumInput albedo(std::string_view name, Rgb otherwise) = 0;
+    /// The same of a coefficient of absorption or scattering: at least 0, of the role Unbounded.
+    virtual SpectrumInput coefficient(std::string_view name, Rgb otherwise) = 0;
     /// "float" texture or float.
     virtual ScalarInput scalar(std::string_view name, float otherwise) = 0;
     /// As scalar, with the default taken from another input (uroughness falls back to roughness).
@@ -64,6 +66,10 @@ public:
     virtual float dielectricIndex(std::string_view name, float otherwise) = 0;
     /// eta and k of a conductor (default copper).
     virtual ConductorIndex conductorIndex(std::string_view eta, std::string_view k) = 0;
+    /// The bytes of the file that a string parameter names, at most so many.
+    virtual std::vector<char> file(std::string_view name, std::uint64_t most) = 0;
+    /// By which spectra become colours of the film's space.
+    virtual const ChannelWeights& channelWeights() const = 0;
     virtual const ParameterSet& parameters() const = 0;
     virtual void warn(const std::string& text) = 0;               ///< with the material's position before it
     [[noreturn]] virtual void fail(const std::string& text) = 0;  ///< Error(BadData), likewise
@@ -75,6 +81,7 @@ struct ShadingContext {
     const Textures& textures;
     const float* tables;
     TextureContext<F> at;
+    F chance{};  ///< in [0, 1): this hit's own, for materials whose closure estimates (kEstimates)
 
     /// `input` is a member of the material M, read for every lane's own row.
     template <class M>

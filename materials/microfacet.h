@@ -78,9 +78,10 @@ struct RoughnessInputs {
     ScalarInput uAlpha, vAlpha;          ///< constants are alpha; textures give alpha too, or roughness:
     std::uint32_t rootU = 0, rootV = 0;  ///< not 0: alpha is the square root of what the texture gives
 
-    static RoughnessInputs make(MaterialInput& input) {
-        const ScalarInput both = input.scalar("roughness", 0.f);
-        RoughnessInputs r{input.scalar("uroughness", both), input.scalar("vroughness", both)};
+    /// `prefix` comes before the names: a layered material has two roughnesses.
+    static RoughnessInputs make(MaterialInput& input, const std::string& prefix = {}) {
+        const ScalarInput both = input.scalar(prefix + "roughness", 0.f);
+        RoughnessInputs r{input.scalar(prefix + "uroughness", both), input.scalar(prefix + "vroughness", both)};
         const bool remap = input.parameters().boolean("remaproughness", true);
         const auto settle = [remap, &input](ScalarInput& roughness, std::uint32_t& root) {
             if (!(roughness.constant >= 0 && roughness.constant <= 1))
@@ -93,6 +94,10 @@ struct RoughnessInputs {
         return r;
     }
     bool isTextured() const { return uAlpha.texture != kNoTexture || vAlpha.texture != kNoTexture; }
+    /// Whether the x axis of the shading frame matters.
+    bool needsTangent() const {
+        return uAlpha.texture != vAlpha.texture || (uAlpha.texture == kNoTexture && uAlpha.constant != vAlpha.constant);
+    }
 
     template <class F>
     static F alpha(F roughness, const Mask<F>& root) {
@@ -106,10 +111,10 @@ struct RoughnessInputs {
         return {{usable(alphaX), usable(alphaY)}, smooth};
     }
 
-    /// The roughness of M, a type derived from this one.
-    template <class F, class M>
+    /// The roughness of M, a type derived from this one; where it has two, of its base Part.
+    template <class F, class M, class Part = RoughnessInputs>
     static SurfaceRoughness<F> surface(const Records<F, M>& m, const ShadingContext<F>& at) {
-        const auto read = [&](ScalarInput RoughnessInputs::*input, std::uint32_t RoughnessInputs::*root) {
+        const auto read = [&](ScalarInput Part::*input, std::uint32_t Part::*root) {
             const F value = at.scalar(m, static_cast<ScalarInput M::*>(input));
             return alpha(value, Mask<F>(m(static_cast<std::uint32_t M::*>(root)) != UInt<F>(0u)));
         };

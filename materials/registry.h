@@ -13,12 +13,15 @@
 #pragma once
 
 #include "materials/blinn.h"
+#include "materials/coated_conductor.h"
 #include "materials/coated_diffuse.h"
 #include "materials/conductor.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/diffuse_transmission.h"
+#include "materials/hair.h"
 #include "materials/interface.h"
+#include "materials/measured.h"
 #include "materials/mix.h"
 #include "materials/phong.h"
 #include "materials/relief.h"
@@ -34,7 +37,8 @@ namespace penumbra {
 
 using MaterialTypes =
     TypeList<DiffuseMaterial, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial, InterfaceMaterial,
-             ThinDielectricMaterial, DiffuseTransmissionMaterial, PhongMaterial, BlinnMaterial>;
+             ThinDielectricMaterial, DiffuseTransmissionMaterial, PhongMaterial, BlinnMaterial, CoatedConductorMaterial,
+             HairMaterial, MeasuredMaterial>;
 
 /// All that a scene file may call a material: those of MaterialTypes, and mixes of them.
 std::vector<PluginInfo> materialPlugins();

@@ -11,7 +11,7 @@
 namespace penumbra {
 
 /// Named dimensions of one vertex. Pairs are drawn with get2, single numbers with get1.
-enum class Dim : std::uint32_t { Filter, Lens, Time, LightPosition, Direction, Lobe, LightPick, Roulette, ShadowRoulette, Mix };
+enum class Dim : std::uint32_t { Filter, Lens, Time, LightPosition, Direction, Lobe, LightPick, Roulette, ShadowRoulette, Mix, Material };
 
 /// One sample of one pixel. `seed` hashes (pixel, replicate, the render's seed); see addressOf.
 template <class F>

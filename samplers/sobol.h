@@ -60,6 +60,7 @@ private:
             case Dim::Roulette: return 6;
             case Dim::ShadowRoulette: return 7;
             case Dim::Mix: return 8;
+            case Dim::Material: return 7;  // a seed, to be hashed: how it is stratified with others does not matter
         }
         return 0;
     }

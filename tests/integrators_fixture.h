@@ -5,6 +5,7 @@
 #include "app/batch/render_job.h"
 #include "scenes/analytic/scene_text.h"
 #include "scenes/readers.h"
+#include "tests/measured_file.h"
 #include "tests/temporary_folder.h"
 
 #include <array>
@@ -36,12 +37,16 @@ inline std::string film(int width, int height) {
            std::to_string(height) + "\n";
 }
 
-/// A folder with the images that the scenes below use: sky.pfm (an equal-area map) and wood.pfm.
+/// A folder with the files that the scenes below use: sky.pfm (an equal-area map), wood.pfm and metal.bsdf.
 class SceneFolder {
 public:
     SceneFolder() {
         folder_.file("sky.pfm", image(16));
         folder_.file("wood.pfm", image(8));
+        MeasuredMetal metal;
+        metal.nodes = 8;
+        const std::vector<char> measured = measuredFile(metal);
+        folder_.file("metal.bsdf", std::string_view(measured.data(), measured.size()));
     }
     std::string path() const { return folder_.path(""); }
     std::string path(const std::string& name) const { return folder_.path(name); }
@@ -129,6 +134,14 @@ Shape "trianglemesh" "point3 P" [ -3 0 2  3 0 2  3 3 2  -3 3 2 ] "integer indice
            scoped(
                "Translate .6 .25 -1.6\nMaterial \"dielectric\" \"float roughness\" .2\n"
                "Shape \"sphere\" \"float radius\" .25\n") +
+           scoped(
+               "Translate .5 .1 -2\nMaterial \"measured\" \"string filename\" \"metal.bsdf\"\n"
+               "Shape \"sphere\" \"float radius\" .1\n") +
+           scoped(
+               "Translate .1 .15 -1.9\nMaterial \"hair\" \"float beta_n\" .5\nShape \"sphere\" \"float radius\" .15\n") +
+           scoped(
+               "Translate -1.1 .2 -1.4\nMaterial \"coatedconductor\" \"float interface.roughness\" .01\n"
+               "  \"float conductor.roughness\" .05\nShape \"sphere\" \"float radius\" .2\n") +
            scoped(
                "Translate -.5 .25 -1.5\nMaterial \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"spectrum k\" "
                "\"metal-Au-k\" \"float uroughness\" .3 \"float vroughness\" .05 \"texture displacement\" \"waves\"\n"

@@ -1,5 +1,6 @@
 // The coated base: the check numbers of the pbrt format, the layered random walk that the closure is the expectation
 // of, and the accuracy of its tables.
+#include "tests/layered_walk.h"
 #include "tests/materials_fixture.h"
 
 #include <gtest/gtest.h>
@@ -67,54 +68,6 @@ TEST(CoatedDiffuse, WithoutACoatIsItsBase) {
     EXPECT_NEAR(e.fCos.r, 0.6 * 0.7 / 3.14159265, 1e-6);
 }
 
-/// The walk as the format defines it, one event at a time, with nothing precomputed: enter by the rough interface, then
-/// base and interface in turn until light leaves. Tallies the energy that leaves from below the coat.
-class LayeredWalk {
-public:
-    LayeredWalk(float eta, float thickness, Ggx<float> ggx, float base, int maxDepth)
-        : eta_(eta), thickness_(thickness), ggx_(ggx), base_(base), maxDepth_(maxDepth) {}
-
-    Moments leavingEnergy(const Vec3<float>& wo, std::uint32_t walks) {
-        std::vector<double> values(walks);
-        for (double& v : values)
-            v = walk(wo);
-        return momentsOf(values);
-    }
-
-private:
-    float next() { return unitFloat<float>(mixBits(++counter_ * 0x9E3779B9u)); }
-
-    /// Meets the interface from `from` (above it; eta is relative); true where refracted, then `to` points below.
-    bool meet(const Vec3<float>& from, float eta, Vec3<float>& to, double& weight) {
-        const Vec3<float> m = ggx_.sampleVisible(from, {next(), next()});
-        const float c = dot(from, m);
-        const auto fresnel = dielectricFresnel(c, eta);
-        const bool reflects = next() < fresnel.reflectance;
-        to = reflects ? m * (2 * c) - from : (m * (c - fresnel.etaCosRefracted) - from) * (1 / eta);
-        if (reflects != (to.z > 0)) weight = 0;
-        weight *= ggx_.shadowing(from, to);
-        return !reflects;
-    }
-    double walk(const Vec3<float>& wo) {
-        double weight = 1;
-        Vec3<float> w;
-        if (!meet(wo, eta_, w, weight)) return 0;
-        for (int depth = 0; depth < maxDepth_ && weight > 0; depth += 2) {
-            weight *= std::exp(-thickness_ / std::abs(w.z)) * base_;  // down, and the base
-            const Vec3<float> up = cosineHemisphere(Vec2<float>{next(), next()});
-            weight *= std::exp(-thickness_ / std::max(up.z, 1e-6f));
-            if (meet(up, 1 / eta_, w, weight)) return weight;
-        }
-        return 0;
-    }
-
-    float eta_, thickness_;
-    Ggx<float> ggx_;
-    float base_;
-    int maxDepth_;
-    std::uint32_t counter_ = 0;
-};
-
 /// Student's test of each case at 1e-4: five cases, a false-alarm rate below 5e-4. Table errors are allowed for.
 TEST(CoatedDiffuse, IsTheExpectationOfTheLayeredWalk) {
     struct Case {
@@ -134,8 +87,18 @@ TEST(CoatedDiffuse, IsTheExpectationOfTheLayeredWalk) {
         const Vec3<float> wo = directionOf(c.cosine, 0.3);
         const auto closure = coated.closure<float>(0u);
         const double below = closure.albedo(wo).r - closure.coat(wo).reflected;
-        LayeredWalk walk(c.eta, c.thickness, {c.ax, c.ay}, c.base, c.maxDepth);
-        const Moments moments = walk.leavingEnergy(wo, 1u << 18);
+        LayeredWalk walk(c.eta, c.thickness, {c.ax, c.ay}, c.maxDepth,
+                         [&](const Vec3<float>&, LayeredWalk& numbers, double& weight) {
+                             weight *= c.base;
+                             const float x = numbers.next();
+                             return cosineHemisphere(Vec2<float>{x, numbers.next()});
+                         });
+        std::vector<double> leaving(1u << 18);
+        for (double& energy : leaving) {
+            const LayeredWalk::Leaving light = walk.walk(wo);
+            energy = light.enteredCoat ? light.weight : 0;
+        }
+        const Moments moments = momentsOf(leaving);
         EXPECT_GT(studentTest(moments, below, 2e-4).pValue, 1e-4)
             << c.ax << ": " << moments.mean << " against " << below;
     }

@@ -7,6 +7,7 @@
 #include "core/math/hash.h"
 #include "core/statistics/hypothesis_tests.h"
 #include "materials/registry.h"
+#include "tests/measured_file.h"
 
 #include <array>
 #include <cmath>
@@ -62,6 +63,10 @@ public:
         const Rgb c = clamp(rgb(name, otherwise), 0.f, 1.f);
         return {{c.r, c.g, c.b}, textureOf(name, kNoTexture)};
     }
+    SpectrumInput coefficient(std::string_view name, Rgb otherwise) override {
+        const Rgb c = rgb(name, otherwise);
+        return {{c.r, c.g, c.b}, textureOf(name, kNoTexture)};
+    }
     ScalarInput scalar(std::string_view name, float otherwise) override {
         return {parameters_.number(name, otherwise), textureOf(name, kNoTexture)};
     }
@@ -73,6 +78,17 @@ public:
     }
     ConductorIndex conductorIndex(std::string_view eta, std::string_view k) override {  // copper
         return {rgb(eta, {0.1684f, 0.9765f, 1.2113f}), rgb(k, {3.6390f, 2.6211f, 2.3663f})};
+    }
+    /// A measurement of a made-up metal instead: tests/measured_file.h.
+    std::vector<char> file(std::string_view, std::uint64_t) override {
+        MeasuredMetal metal;
+        metal.alphaX = parameters_.number("metal.ax", metal.alphaX);
+        metal.alphaY = parameters_.number("metal.ay", metal.alphaX);
+        metal.nodes = int(parameters_.number("metal.nodes", float(metal.nodes)));
+        return measuredFile(metal);
+    }
+    const ChannelWeights& channelWeights() const override {
+        return penumbra::channelWeights(srgbColorSpace());
     }
     const ParameterSet& parameters() const override { return parameters_; }
     void warn(const std::string& text) override { warnings.push_back(text); }
@@ -179,6 +195,27 @@ inline std::vector<Settings> settingsOf(std::string_view material) {
         add({number("eta", 1), number("thickness", 0.5f)});
         add({number("thickness", 1), integer("maxdepth", 1)});
         add({number("thickness", 0), integer("maxdepth", 1000), color("reflectance", 1, 1, 1)});
+    } else if (material == "coatedconductor") {
+        add({number("conductor.roughness", 0.3f)});
+        add({number("interface.roughness", 0.1f)});
+        add({number("interface.roughness", 0.02f), number("conductor.roughness", 0.002f), integer("nsamples", 3)});
+        add({color("reflectance", 0.9f, 0.5f, 0), number("conductor.uroughness", 0.05f),
+             number("conductor.vroughness", 0.4f), plainAlpha()});
+        add({color("reflectance", 1, 1, 1), number("interface.uroughness", 0.6f), number("interface.vroughness", 0.06f),
+             number("conductor.roughness", 1), number("thickness", 0), integer("maxdepth", 1000), plainAlpha()});
+        add({number("interface.eta", 0.8f), number("interface.roughness", 0.1f), number("conductor.roughness", 0.1f)});
+        add({number("interface.eta", 1), number("conductor.roughness", 0.2f), integer("maxdepth", 1)});
+        add({number("interface.eta", 2.4f), number("thickness", 1), number("interface.roughness", 1)});
+    } else if (material == "hair") {
+        add({color("sigma_a", 0, 0, 0)});
+        add({color("sigma_a", 0, 0.1f, 30), number("beta_m", 1), number("beta_n", 1)});
+        add({color("reflectance", 0.7f, 0.4f, 0.2f), number("beta_m", 0.15f), number("beta_n", 0.2f), number("alpha", 5)});
+        add({number("eumelanin", 0.1f), number("pheomelanin", 0.6f), number("beta_n", 0.6f), number("alpha", 0)});
+        add({number("eta", 1), number("alpha", -30)});
+        add({number("eta", 0.8f)});
+    } else if (material == "measured") {
+        add({number("metal.ax", 0.6f)});
+        add({number("metal.ax", 0.25f), number("metal.ay", 0.5f)});
     }
     return list;
 }
@@ -203,16 +240,16 @@ struct MaterialsUnderTest {
     std::string name(std::size_t i) const { return describe(M::kInfo.name, settings[i]); }
 
     template <class F>
-    typename M::template Bsdf<F> closure(const UInt<F>& index) const {
+    typename M::template Bsdf<F> closure(const UInt<F>& index, F chance = F(0.3f)) const {
         const UInt<F> id = index + UInt<F>(table.firstId(kTagOf<M, MaterialTypes>));
         const F zero(0.f);
         const ShadingContext<F> context{
-            textures, table.tableData(), {{zero, zero}, zero, {zero, zero, zero}, {zero, zero, F(1.f)}, zero}};
+            textures, table.tableData(), {{F(0.3f), F(0.7f)}, zero, {zero, zero, zero}, {zero, zero, F(1.f)}, zero}, chance};
         return M::bsdf(table.records<M, F>(id), context);
     }
     /// The one material, for lanes.
-    typename M::template Bsdf<Lanes8f> wide(std::size_t i = 0) const {
-        return closure<Lanes8f>(Lanes8u(std::uint32_t(i)));
+    typename M::template Bsdf<Lanes8f> wide(std::size_t i = 0, Lanes8f chance = Lanes8f(0.3f)) const {
+        return closure<Lanes8f>(Lanes8u(std::uint32_t(i)), chance);
     }
 };
 

@@ -134,7 +134,7 @@ TEST(SobolSampler, EveryElementaryIntervalHasOnePoint) {
 
 TEST(SobolSampler, EveryNumberIsStratifiedAlone) {
     const Sampler s{SobolSampler{}};
-    for (Dim dim : {Dim::Lobe, Dim::LightPick, Dim::Roulette, Dim::ShadowRoulette})
+    for (Dim dim : {Dim::Lobe, Dim::LightPick, Dim::Roulette, Dim::ShadowRoulette, Dim::Material})
         for (std::uint32_t pixel = 0; pixel < 20; ++pixel) {
             std::vector<int> cells(256, 0);
             for (std::uint32_t i = 0; i < 256; ++i) ++cells[std::size_t(s.at<float>(address(pixel, i), 5).get1(dim) * 256)];

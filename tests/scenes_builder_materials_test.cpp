@@ -1,4 +1,5 @@
 // Materials and textures: names, roles, what stands in for what is not there yet, and what shapes learn of them.
+#include "tests/measured_file.h"
 #include "tests/scenes_builder_fixture.h"
 #include "tests/temporary_folder.h"
 
@@ -68,27 +69,70 @@ TEST(MaterialLibrary, OldWordsForInterface) {
 }
 
 TEST(MaterialLibrary, StandInsWarnOnceAndTakeWhatTheyKnow) {
-    const BuiltScene coated = buildWorld(kLight +
-                                         "Material \"coatedconductor\" \"float conductor.roughness\" 0.25 \"rgb "
-                                         "reflectance\" [.2 .4 .6]\nShape \"sphere\"\n"
-                                         "Material \"coatedconductor\" Shape \"disk\"");
-    const auto& metals = coated.scene.materials.rows<ConductorMaterial>();
-    ASSERT_EQ(metals.size(), 2u);
-    EXPECT_EQ(metals[0].uAlpha.constant, 0.5f);
-    EXPECT_EQ(metals[0].reflectance.constant.b, 0.6f);
-    ASSERT_EQ(coated.warnings.all().size(), 1u);
-    EXPECT_EQ(coated.warnings.all()[0],
-              "test.pbrt:3:1: the material 'coatedconductor' is not there yet; 'conductor' stands in for it");
+    const BuiltScene skin = buildWorld(kLight +
+                                       "Material \"subsurface\" \"float roughness\" 0.25\nShape \"sphere\"\n"
+                                       "Material \"subsurface\" Shape \"disk\"");
+    ASSERT_EQ(skin.scene.materials.rows<DielectricMaterial>().size(), 2u);
+    EXPECT_EQ(skin.scene.materials.rows<DielectricMaterial>()[0].uAlpha.constant, 0.5f);
+    ASSERT_EQ(skin.warnings.all().size(), 1u);
+    EXPECT_EQ(skin.warnings.all()[0],
+              "test.pbrt:3:1: the material 'subsurface' is not there yet; 'dielectric' stands in for it");
 
     EXPECT_EQ(onlyMaterial<DielectricMaterial>(withMaterial("Material \"subsurface\"")).eta, 1.33f);
     EXPECT_EQ(onlyMaterial<DielectricMaterial>(withMaterial("Material \"subsurface\" \"float eta\" 1.5")).eta, 1.5f);
-    EXPECT_EQ(onlyMaterial<DiffuseMaterial>(withMaterial("Material \"hair\" \"rgb color\" [.7 .7 .7]"))
-                  .reflectance.constant.r,
-              0.7f);
-    EXPECT_EQ(withMaterial("Material \"measured\" \"string filename\" \"x.bsdf\"")
-                  .scene.materials.rows<DiffuseMaterial>()
-                  .size(),
-              1u);
+}
+
+TEST(MaterialLibrary, MeasuredOnesComeFromFiles) {
+    const TemporaryFolder folder;
+    test::MeasuredMetal metal;
+    metal.nodes = 4;
+    const std::vector<char> bytes = test::measuredFile(metal);
+    folder.file("metal.bsdf", std::string_view(bytes.data(), bytes.size()));
+    folder.file("text.bsdf", "no measurement");
+    const auto with = [&](const std::string& file) {
+        return "WorldBegin\nMaterial \"measured\" \"string filename\" \"" + folder.path(file) + "\" Shape \"sphere\"";
+    };
+    const BuiltScene built = buildWorld(kLight + with("metal.bsdf").substr(11));
+    EXPECT_EQ(onlyMaterial<MeasuredMaterial>(built).thetas, 8u);
+    EXPECT_EQ(onlyMaterial<MeasuredMaterial>(built).colorWidth, 4u);
+    EXPECT_NE(errorOf(with("none.bsdf")).find("test.pbrt:2:21: material 'measured'"), std::string::npos);
+    EXPECT_NE(errorOf(with("text.bsdf")).find("test.pbrt:2:1: material 'measured': not a usable tensor file"), std::string::npos);
+    EXPECT_NE(materialError("Material \"measured\"").find("needs a file: the parameter \"string filename\""), std::string::npos);
+}
+
+TEST(MaterialLibrary, CoatedMetals) {
+    const auto metal = onlyMaterial<CoatedConductorMaterial>(
+        withMaterial("Material \"coatedconductor\" \"float conductor.roughness\" 0.25 \"float interface.vroughness\" 0.01 "
+                     "\"float interface.eta\" 2 \"rgb reflectance\" [.2 .4 .6] \"integer maxdepth\" 7"));
+    EXPECT_EQ(metal.MetalRoughness::uAlpha.constant, 0.5f);
+    EXPECT_EQ(metal.MetalRoughness::vAlpha.constant, 0.5f);
+    EXPECT_EQ(metal.CoatRoughness::uAlpha.constant, 0.f);
+    EXPECT_EQ(metal.CoatRoughness::vAlpha.constant, 0.1f);
+    EXPECT_EQ(metal.reflectance.constant.b, 0.6f);
+    EXPECT_EQ(metal.metalBounces, 4u);
+    // eta and k of the metal count relative to the coat.
+    const auto copper = onlyMaterial<ConductorMaterial>(withMaterial("Material \"conductor\""));
+    const auto coated = onlyMaterial<CoatedConductorMaterial>(withMaterial("Material \"coatedconductor\""));
+    EXPECT_NEAR(coated.difference.g, copper.difference.g / 2.25f, 1e-5f);
+    EXPECT_NEAR(coated.product.g, copper.product.g / (2.25f * 2.25f), 1e-5f);
+}
+
+TEST(MaterialLibrary, HairIsColouredOneWay) {
+    const auto hair = [](const std::string& p) { return onlyMaterial<HairMaterial>(withMaterial("Material \"hair\" " + p)); };
+    EXPECT_EQ(hair("").by, HairMaterial::Color::Pigment);
+    EXPECT_EQ(hair("").eumelanin.constant, 1.3f);
+    EXPECT_EQ(hair("\"float pheomelanin\" .2").eumelanin.constant, 0.f);
+    EXPECT_EQ(hair("\"rgb color\" [.1 .2 .3]").by, HairMaterial::Color::Reflectance);
+    EXPECT_EQ(hair("\"rgb reflectance\" [.1 .2 .3]").color.constant.g, 0.2f);
+    const HairMaterial dyed = hair("\"rgb sigma_a\" [.1 2 30] \"float beta_n\" .4 \"float alpha\" 3");
+    EXPECT_EQ(dyed.by, HairMaterial::Color::Absorption);
+    EXPECT_EQ(dyed.color.constant.b, 30.f);
+    EXPECT_EQ(dyed.betaN.constant, 0.4f);
+    EXPECT_EQ(dyed.alpha.constant, 3.f);
+    EXPECT_NE(withMaterial("Material \"hair\" \"rgb sigma_a\" [1 1 1] \"float eumelanin\" 1").warnings.all().size(), 0u);
+    EXPECT_NE(materialError("Material \"hair\" \"float eumelanin\" -1").find("eumelanin must lie between"), std::string::npos);
+    EXPECT_NE(materialError("Material \"hair\" \"float eta\" 0").find("eta must lie between"), std::string::npos);
+    EXPECT_NE(materialError("Material \"hair\" \"rgb sigma_a\" [-1 0 0]").find("sigma_a"), std::string::npos);
 }
 
 TEST(MaterialLibrary, ThinSheetsAndPanes) {
@@ -297,6 +341,9 @@ INSTANTIATE_TEST_SUITE_P(
                     NeedsCase{"Anisotropic", "Material \"conductor\" \"float uroughness\" 0.1 \"float vroughness\" 0.3",
                               false, true},
                     NeedsCase{"OneAxis", "Material \"coateddiffuse\" \"float uroughness\" 0.1", false, true},
+                    NeedsCase{"Hair", "Material \"hair\"", true, true},
+                    NeedsCase{"AxisBelow", "Material \"coatedconductor\" \"float conductor.uroughness\" 0.1", false, true},
+                    NeedsCase{"CoatedMetal", "Material \"coatedconductor\" \"float conductor.roughness\" 0.1", false, false},
                     NeedsCase{"Image",
                               "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"t.pfm\" Material "
                               "\"diffuse\" \"texture reflectance\" \"t\"",

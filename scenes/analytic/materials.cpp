@@ -242,6 +242,16 @@ double coated(double cosine, double base, double thickness, int baseBounces) {
     return top + (1 - top) * std::exp(-thickness / below) * series;
 }
 
+/// The same over a mirror of metal: nothing is scattered, and the sum is over one direction.
+double coatedMirror(double cosine, std::complex<double> index, double thickness, int baseBounces) {
+    const double below = std::sqrt(1 - (1 - cosine * cosine) / (kIor * kIor)), top = fresnel(cosine, kIor);
+    const double metal = fresnel(below, index / kIor) * std::exp(-2 * thickness / below);
+    double sum = top;
+    for (int k = 0; k < baseBounces; ++k)
+        sum += (1 - top) * (1 - top) * metal * std::pow(metal * top, k);
+    return sum;
+}
+
 void addCoats(std::vector<AnalyticScene>& scenes) {
     const double fi = diffuseFresnelInside(kIor), r = fresnel(1, kIor), base = .8;
     const double ideal = r + (1 - r) * base * (1 - fi) / (1 - base * fi);
@@ -264,6 +274,12 @@ void addCoats(std::vector<AnalyticScene>& scenes) {
             underSky(fmt::format("F13 {}", degrees),
                      "the coated diffuse material with its defaults: thickness .01, five bounces of the base",
                      "Material \"coateddiffuse\"\n", cosine, coated(cosine, .5, .01, 5)));
+        scenes.push_back(
+            exactly(underSky(fmt::format("F13 metal {}", degrees),
+                             "a smooth coat over a smooth metal: two mirrors, five meetings with the second",
+                             "Material \"coatedconductor\" \"rgb conductor.eta\" [ .2 .2 .2 ] "
+                             "\"rgb conductor.k\" [ 3 3 3 ]\n",
+                             cosine, coatedMirror(cosine, {.2, 3}, .01, 5))));
     }
 }
 

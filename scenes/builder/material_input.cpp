@@ -1,19 +1,29 @@
 #include "scenes/builder/material_input.h"
 
+#include "core/base/byte_reader.h"
+
 namespace penumbra::builder {
 
 SpectrumInput SceneMaterialInput::albedo(std::string_view name, Rgb otherwise) {
+    SpectrumInput input = color(name, otherwise, SpectrumRole::Albedo);
+    for (float* x : {&input.constant.r, &input.constant.g, &input.constant.b})
+        *x = std::clamp(*x, 0.f, 1.f);
+    return input;
+}
+
+SpectrumInput SceneMaterialInput::coefficient(std::string_view name, Rgb otherwise) {
+    return color(name, otherwise, SpectrumRole::Unbounded);
+}
+
+SpectrumInput SceneMaterialInput::color(std::string_view name, Rgb otherwise, SpectrumRole role) {
     TextureOperand operand = TextureOperand::color(otherwise);
     if (const Parameter* p = parameters().find("texture", name))
-        operand = textures_.spectrum(*p, SpectrumRole::Albedo);
+        operand = textures_.spectrum(*p, role);
     else if (const Parameter* s = BuildContext::findSpectrum(parameters(), name))
-        operand = TextureOperand::color(readSpectrumParameter(*s, SpectrumRole::Albedo, context_.spectra(), owner_));
-    if (!operand.isConstant()) {
-        usesTextures_ = true;
-        return {{}, operand.texture};
-    }
-    const auto unit = [](float x) { return std::clamp(x, 0.f, 1.f); };
-    return {{unit(operand.constant.r), unit(operand.constant.g), unit(operand.constant.b)}, kNoTexture};
+        operand = TextureOperand::color(readSpectrumParameter(*s, role, context_.spectra(), owner_));
+    if (operand.isConstant()) return {operand.constant, kNoTexture};
+    usesTextures_ = true;
+    return {{}, operand.texture};
 }
 
 ScalarInput SceneMaterialInput::scalar(std::string_view name, float otherwise) {
@@ -40,6 +50,23 @@ ConductorIndex SceneMaterialInput::conductorIndex(std::string_view eta, std::str
     const Parameter* etaGiven = indexParameter(eta, etaStorage);
     const Parameter* kGiven = indexParameter(k, kStorage);
     return readConductorIndex(etaGiven, kGiven, context_.spectra(), owner_);
+}
+
+std::vector<char> SceneMaterialInput::file(std::string_view name, std::uint64_t most) {
+    const Parameter* p = parameters().find("string", name);
+    if (!p || p->strings().empty()) fail("needs a file: the parameter \"string " + std::string(name) + "\"");
+    return context_.placed(p->where, owner_, [&] {
+        const std::string path = context_.path(p->strings().front());
+        ByteReader reader = ByteReader::open(path);
+        std::vector<char> bytes;
+        while (reader.fill(1)) {
+            if (bytes.size() + reader.available() > most)
+                throw Error(ErrorKind::BadData, path + ": longer than " + std::to_string(most) + " bytes");
+            bytes.insert(bytes.end(), reader.data(), reader.data() + reader.available());
+            reader.consume(reader.available());
+        }
+        return bytes;
+    });
 }
 
 const Parameter* SceneMaterialInput::indexParameter(std::string_view name, Parameter& storage) {

@@ -15,10 +15,13 @@ public:
         : entity_(entity), owner_(owner), context_(context), textures_(textures), tables_(tables) {}
 
     SpectrumInput albedo(std::string_view name, Rgb otherwise) override;
+    SpectrumInput coefficient(std::string_view name, Rgb otherwise) override;
     ScalarInput scalar(std::string_view name, float otherwise) override;
     ScalarInput scalar(std::string_view name, const ScalarInput& otherwise) override;
     float dielectricIndex(std::string_view name, float otherwise) override;
     ConductorIndex conductorIndex(std::string_view eta, std::string_view k) override;
+    std::vector<char> file(std::string_view name, std::uint64_t most) override;
+    const ChannelWeights& channelWeights() const override { return penumbra::channelWeights(context_.filmColorSpace()); }
     const ParameterSet& parameters() const override { return entity_.parameters; }
     void warn(const std::string& text) override { context_.warn(entity_.where, owner_ + ": " + text); }
     [[noreturn]] void fail(const std::string& text) override { context_.fail(entity_.where, owner_ + ": " + text); }
@@ -28,6 +31,7 @@ public:
     bool usesTextures() const { return usesTextures_; }
 
 private:
+    SpectrumInput color(std::string_view name, Rgb otherwise, SpectrumRole role);
     /// The parameter of half of a conductor's index; a constant texture becomes an rgb, held in `storage`.
     const Parameter* indexParameter(std::string_view name, Parameter& storage);
 

@@ -26,26 +26,9 @@ Parameter floatParameter(std::string name, float value) {
     return {
         .type = "float", .name = std::move(name), .where = {}, .values = std::vector<float>{value}, .colorSpace = {}};
 }
-Parameter greyParameter(std::string name, float value) {
-    return {.type = "rgb",
-            .name = std::move(name),
-            .where = {},
-            .values = std::vector<float>{value, value, value},
-            .colorSpace = "srgb"};
-}
 
 const std::vector<MaterialStandIn>& materialStandIns() {
     static const std::vector<MaterialStandIn> table{
-        {"coatedconductor",
-         "conductor",
-         {{"conductor.eta", "eta"},
-          {"conductor.k", "k"},
-          {"reflectance", "reflectance"},
-          {"conductor.roughness", "roughness"},
-          {"conductor.uroughness", "uroughness"},
-          {"conductor.vroughness", "vroughness"},
-          {"remaproughness", "remaproughness"}},
-         {}},
         {"subsurface",
          "dielectric",
          {{"eta", "eta"},
@@ -54,11 +37,6 @@ const std::vector<MaterialStandIn>& materialStandIns() {
           {"vroughness", "vroughness"},
           {"remaproughness", "remaproughness"}},
          {floatParameter("eta", 1.33f)}},
-        {"hair",
-         "diffuse",
-         {{"reflectance", "reflectance"}, {"color", "reflectance"}},
-         {greyParameter("reflectance", 0.25f)}},
-        {"measured", "diffuse", {}, {}},
     };
     return table;
 }
@@ -108,17 +86,13 @@ Entity standInFor(const Entity& entity, const MaterialStandIn& standIn) {
     return out;
 }
 
-/// Whether the x axis of the shading frame matters to a material.
-bool isAnisotropic(const MaterialTable& table, MaterialHandle handle) {
-    bool result = false;
-    dispatch(MaterialTypes{}, handle.tag, [&]<class M>() {
-        if constexpr (std::is_base_of_v<RoughnessInputs, M>) {
-            const RoughnessInputs& m = table.rows<M>()[handle.row];
-            const ScalarInput &u = m.uAlpha, &v = m.vAlpha;
-            result = u.texture != v.texture || (u.texture == kNoTexture && u.constant != v.constant);
-        }
+/// What a material looks at besides its textures.
+void addNeeds(SceneMaterial& made, const MaterialTable& table) {
+    dispatch(MaterialTypes{}, made.handle.tag, [&]<class M>() {
+        if constexpr (requires { requires M::kNeedsUv; }) made.needsUv = true;
+        if constexpr (requires(const M& m) { m.needsTangent(); })
+            made.needsTangent = table.rows<M>()[made.handle.row].needsTangent();
     });
-    return result;
 }
 
 }  // namespace
@@ -203,7 +177,7 @@ SceneMaterial MaterialLibrary::makeOurs(const Entity& entity, const std::string&
     made.handle = *table_.add(type, input);
     made.passThrough = MaterialTable::isPassThrough(made.handle.tag);
     made.needsUv = input.usesTextures();
-    made.needsTangent = isAnisotropic(table_, made.handle);
+    addNeeds(made, table_);
     const ParameterSet& p = entity.parameters;
     if (made.passThrough)
         p.markAllUsed();

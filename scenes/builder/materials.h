@@ -17,8 +17,8 @@ namespace penumbra::builder {
 struct SceneMaterial {
     MaterialHandle handle;
     bool passThrough = false;   ///< no surface, or a mix with some: what is put on it does not shine
-    bool needsUv = false;       ///< some texture looks at uv
-    bool needsTangent = false;  ///< it is anisotropic
+    bool needsUv = false;       ///< it looks at uv, or some texture does
+    bool needsTangent = false;  ///< the x axis of its frame matters
 };
 
 class MaterialLibrary {

@@ -345,6 +345,92 @@ def tribar(n=6):
     return (HEADER + text).encode()
 
 
+# ---- measured materials ---------------------------------------------------------------------------------------------
+
+def tensor_file(fields):
+    """The container of measured materials: (name, shape, numbers) of each field, all floats."""
+    heads, body = [], b""
+    start = 18 + sum(13 + len(name) + 8 * len(shape) for name, shape, _ in fields)
+    for name, shape, numbers in fields:
+        heads.append(struct.pack("<H%dsHBQ%dQ" % (len(name), len(shape)), len(name), name.encode(), len(shape), 10,
+                                 start + len(body), *shape))
+        body += struct.pack("<%df" % len(numbers), *numbers)
+    return b"tensor_file\0" + struct.pack("<BBI", 1, 0, len(fields)) + b"".join(heads) + body
+
+
+def inverted(values, u):
+    """Where the integral of the polygon through these values, at 0, 1, 2, ..., is u of the whole."""
+    parts = [0.5 * (a + b) for a, b in zip(values, values[1:])]
+    left = u * sum(parts)
+    for i, part in enumerate(parts):
+        if left <= part or i == len(parts) - 1:
+            a, b = values[i], values[i + 1]
+            root = a + math.sqrt(max(a * a + 2 * left * (b - a), 0))
+            return i + min(2 * left / max(root, 1e-30), 1)
+        left -= part
+
+
+def pearl(alpha=0.32, nodes=14, thetas=7, film=760.0):
+    """What a gonio-photometer would find of rough metal under a film as thick as light's waves are long: two waves,
+    reflected above and below it, that add or cancel by wavelength and angle."""
+    wavelengths = [390.0 + 30 * i for i in range(12)]
+    at = [i / (nodes - 1) for i in range(nodes)]
+    grid = [(x, y) for y in at for x in at]
+
+    def direction(theta, phi):
+        return [math.sin(theta) * math.cos(phi), math.sin(theta) * math.sin(phi), math.cos(theta)]
+
+    def facet(place):
+        return direction(place[0] ** 2 * math.pi / 2, (2 * place[1] - 1) * math.pi)
+
+    def density(m):
+        q = (m[0] * m[0] + m[1] * m[1]) / alpha ** 2 + m[2] * m[2]
+        return 1 / (math.pi * alpha ** 2 * q * q)
+
+    def area(w):
+        return 0.5 * (w[2] + math.sqrt(alpha ** 2 * (w[0] ** 2 + w[1] ** 2) + w[2] ** 2))
+
+    def reflectance(cosine, nm):
+        path = 2 * film * math.sqrt(1.6 ** 2 - 1 + cosine * cosine)
+        return 0.52 + 0.4 * math.cos(2 * math.pi * path / nm)
+
+    views = [1.5 * i / (thetas - 1) for i in range(thetas)]
+    visible, luminance, spectra = [], [], []
+    for theta in views:
+        wo = direction(theta, 0)
+        seen = [max(dot(wo, facet(p)), 1e-3) * density(facet(p)) * p[0] * math.sin(p[0] ** 2 * math.pi / 2) + 1e-6
+                for p in grid]
+        visible += seen
+        rows = [seen[y * nodes:(y + 1) * nodes] for y in range(nodes)]
+        sums = [sum(0.5 * (a + b) for a, b in zip(row, row[1:])) for row in rows]
+        found = []
+        for x, y in grid:
+            place = inverted(sums, y)
+            below = min(int(place), nodes - 2)
+            line = mix(rows[below], rows[below + 1], place - below)
+            found.append(facet((inverted(line, x) / (nodes - 1), place / (nodes - 1))))
+        shown = []
+        for m in found:
+            c = max(dot(wo, m), 0)
+            wi = add(scaled(m, 2 * c), scaled(wo, -1))
+            masks = 0
+            if wi[2] > 0:
+                lo, li = area(wo) / wo[2] - 1, area(wi) / wi[2] - 1
+                masks = (1 + lo) / (1 + lo + li)
+            shown.append((c, masks))
+        luminance += [0.5 * masks + 0.02 for _, masks in shown]
+        for nm in wavelengths:
+            spectra += [reflectance(c, nm) * masks for c, masks in shown]
+
+    count = len(wavelengths)
+    return tensor_file([
+        ("phi_i", [1], [0.0]), ("theta_i", [thetas], views), ("wavelengths", [count], wavelengths),
+        ("ndf", [nodes, nodes], [density(facet(p)) for p in grid]),
+        ("sigma", [nodes, nodes], [area(facet(p)) for p in grid]),
+        ("vndf", [1, thetas, nodes, nodes], visible), ("luminance", [1, thetas, nodes, nodes], luminance),
+        ("spectra", [1, thetas, count, nodes, nodes], spectra)])
+
+
 def main():
     write("knot.ply", knot())
     write("superquadric.ply", superquadric())
@@ -359,6 +445,7 @@ def main():
     write("flower.pbrt", flower())
     write("star.pbrt", star())
     write("tribar.pbrt", tribar())
+    write("pearl.bsdf", pearl())
 
 
 if __name__ == "__main__":
