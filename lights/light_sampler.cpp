@@ -32,7 +32,8 @@ void LightSampler::buildTable(const std::vector<double>& weights) {
 }
 
 void LightSampler::buildTree(const LightTable& lights, const std::vector<double>& powers) {
-    std::vector<LightBounds> bounds;
+    std::vector<LightBounds> bounds;  // with millions of lights the largest thing there is, so it must not grow by doubling
+    bounds.reserve(lights.size());
     std::vector<std::uint32_t> placed;
     std::vector<double> weights = {0};
     lightOf_ = {0};

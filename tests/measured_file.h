@@ -32,8 +32,8 @@ public:
             at += 2 + f.name.size() + 2 + 1 + 8 + 8 * f.shape.size();
         std::vector<char> out;
         const auto put = [&out](const void* data, std::size_t size) {
-            const char* begin = static_cast<const char*>(data);
-            out.insert(out.end(), begin, begin + size);
+            out.resize(out.size() + size);
+            std::memcpy(out.data() + (out.size() - size), data, size);
         };
         const auto number = [&](auto x) { put(&x, sizeof x); };
         put("tensor_file", 12);

@@ -2,10 +2,9 @@
 
 #include "app/batch/render_job.h"
 #include "core/base/parallel.h"
+#include "core/base/ticker.h"
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
+#include <optional>
 
 namespace penumbra {
 namespace {
@@ -26,38 +25,7 @@ RenderOptions optionsOf(const std::string& scene, const RendererSettings& s) {
     return o;
 }
 
-/// Tells `progress` how far the job is until it goes out of scope, and sets `stop` when the answer is no.
-class ProgressCaller {
-public:
-    ProgressCaller(const RenderJob& job, const Renderer::Progress& progress, std::atomic<bool>& stop) {
-        if (!progress) return;
-        thread_ = std::thread([this, &job, &progress, &stop] {
-            std::unique_lock lock(mutex_);
-            do {
-                const RenderProgress& p = job.progress();
-                if (!progress(double(p.samplesDone) / double(p.samples))) stop = true;
-            } while (!over_.wait_for(lock, kPause, [this] { return isOver_; }));
-        });
-    }
-    ~ProgressCaller() {
-        if (!thread_.joinable()) return;
-        {
-            const std::lock_guard lock(mutex_);
-            isOver_ = true;
-        }
-        over_.notify_one();
-        thread_.join();
-    }
-    ProgressCaller(const ProgressCaller&) = delete;
-    ProgressCaller& operator=(const ProgressCaller&) = delete;
-
-private:
-    static constexpr std::chrono::milliseconds kPause{100};
-    std::mutex mutex_;
-    std::condition_variable over_;
-    bool isOver_ = false;
-    std::thread thread_;
-};
+constexpr Ticker::Pause kProgressPause{100};
 
 }  // namespace
 
@@ -68,7 +36,7 @@ struct Renderer::State {
     int threads;
     Warnings warnings;
     RenderJob job;
-    bool isDone = false;
+    bool hasRun = false;
 };
 
 Renderer::Renderer(const std::string& scene, const RendererSettings& settings) {
@@ -80,12 +48,19 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 bool Renderer::render(const Progress& progress) {
-    if (state_->isDone) return true;
+    RenderJob& job = state_->job;
+    if (state_->hasRun) return job.isWhole();
+    state_->hasRun = true;
     const ThreadLimit limit(state_->threads);
     std::atomic<bool> stop{false};
-    const ProgressCaller caller(state_->job, progress, stop);
-    state_->isDone = state_->job.run(&stop);
-    return state_->isDone;
+    std::optional<Ticker> ticker;
+    if (progress)
+        ticker.emplace(Ticker::Pause(0), [&] {
+            const RenderProgress& p = job.progress();
+            if (!progress(double(p.samplesDone) / double(p.samples))) stop = true;
+            return kProgressPause;
+        });
+    return job.run(&stop);
 }
 
 Picture Renderer::picture() const {

@@ -61,10 +61,11 @@ public:
     Renderer& operator=(Renderer&&) noexcept;
 
     /// Called some ten times a second, on a thread of its own, with the fraction that is done; false ends the render early.
+    /// It must not throw.
     using Progress = std::function<bool(double)>;
 
-    /// Renders every sample of every pixel; a second call begins nothing anew. False where `progress` ended it: the Renderer
-    /// then holds no whole picture and is of no further use.
+    /// Renders every sample of every pixel; a second call does nothing. False where `progress` ended it: the Renderer then
+    /// holds no whole picture, and never will.
     bool render(const Progress& progress = {});
 
     Picture picture() const;

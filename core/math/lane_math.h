@@ -122,7 +122,7 @@ template <class F> inline F acos(F x) {
     return select(x < F(0.f), F(kPi) - positive, positive);
 }
 
-/// e^-x I0(x), I0 the modified Bessel function of the first kind and order 0, for x >= 0; relative error below 5e-7
+/// e^-x I0(x), I0 the modified Bessel function of the first kind and order 0, for x >= 0; relative error below 6e-7
 /// (Abramowitz & Stegun 1964, 9.8.1 and 9.8.2).
 template <class F>
 inline F besselI0Scaled(F x) {

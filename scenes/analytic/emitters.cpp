@@ -180,6 +180,7 @@ void addPicture(std::vector<AnalyticScene>& scenes) {
                      rectangleZ(-1, 1, 0, 2, 1, Facing::Negative)),
               irradiance);
     s.files = {{"ramp.pfm", pfmImage(2, 1, {{.5f, .5f, .5f}, {2.f, 2.f, 2.f}})}};
+    s.samplesPerPixel = 128;
     scenes.push_back(s);
     scenes.push_back(with(AnalyticScene::Strategy::LightSampling, s));
     scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, s));

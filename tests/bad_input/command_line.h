@@ -36,7 +36,7 @@ inline std::vector<Case> optionCases() {
         {"--integrator", {"", "pat"}},
         {"--roulette", {"", "Late"}},
         {"--strategy", {"", "both"}},
-        {"--light-selection", {"", "bvh"}},
+        {"--light-selection", {"", "tree"}},
         {"--light-sampling", {"", "solid"}},
         {"--intersection", {"", "exact"}},
         {"--lanes", {"", "4"}},
