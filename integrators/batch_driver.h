@@ -2,9 +2,10 @@
 // steps of an integrator, about a thousand at a time.
 //
 // One step: trace the live rays in packets of eight; where a mix of materials was met, choose one of them; sort the rays by
-// the material they met (a miss is a kind of its own); hand each group of eight of one kind to the integrator, which adds emission, asks for a shadow ray and packs the ray that goes
-// on; trace the shadow rays and add what arrives. Paths end in lockstep: there is no refill, so every number of a path
-// depends on its own address alone, and lanes, batch size and tile order change no bit.
+// the material they met (a miss is a kind of its own); hand each group of eight of one kind to the integrator, which adds
+// emission, asks for a shadow ray and packs the ray that goes on; trace the shadow rays and add what arrives. Paths end in
+// lockstep: there is no refill, so every number of a path depends on its own address alone, and lanes, batch size and tile
+// order change no bit.
 //
 // A Shader is the integrator's part, generic over lanes:
 //   template <class F, class M> void shade(Step<F>&, RayGroup<F>&, const Hit<F>&, const UInt<F>& material) const noexcept;

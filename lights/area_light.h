@@ -23,7 +23,8 @@ inline constexpr ParameterInfo kDiffuseAreaParameters[] = {
     {"string", "filename", "", "image of the emission over the surface's uv, instead of L"},
 };
 inline constexpr PluginInfo kDiffuseAreaInfo = {
-    "diffuse", "area light on a shape: constant radiance on the side of the normal", kDiffuseAreaParameters};
+    "diffuse", "area light on a shape: constant radiance, or that of an image, on the normal's side",
+    kDiffuseAreaParameters};
 
 // Flags of an area light.
 /// Emits on both sides.
