@@ -50,6 +50,7 @@ private:
         const Mask<F> whole = g.bsdfPdf == F(0.f);
         if (strategy_ == Strategy::BsdfOnly) return F(1.f);
         if (strategy_ == Strategy::LightOnly) return select(whole, F(1.f), F(0.f));
+        if (all(whole)) return F(1.f);   // what the camera and mirrors see: no light sample is to be weighed against
         const LightSampler& sampler = step.scene.lightSampler;
         LitPoint<F> left{};   // where the ray comes from
         if (sampler.isByPlace()) left = {g.origin, unpackDirection<F>(gather(step.batch.slots.normal, g.slot))};

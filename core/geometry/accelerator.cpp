@@ -285,8 +285,7 @@ struct Accelerator::State {
             if (shape.count == 0 || shape.flags & kShapeInvisible) continue;
             MaskedShape* mask = shape.isMasked() ? addMask(g, range.firstShape + i, textures) : nullptr;
             if (shape.kind == ShapeKind::Mesh) attachMesh(scene, g, shape, mask, i);
-            else if (shape.kind == ShapeKind::Curves)
-                attachCurves(scene, g, shape, mask, i);
+            else if (shape.kind == ShapeKind::Curves) attachCurves(scene, g, shape, mask, i);
             else attachQuadric(scene, g, shape, mask, i);
         }
         if (group == 0)

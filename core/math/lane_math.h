@@ -1,5 +1,5 @@
-// sin, cos, exp, log, pow, atan2, asin, acos, besselI0Scaled over lanes: our own, because the C library picks variants by processor and
-// so would not give the same bits everywhere (and has none for eight lanes).
+// sin, cos, exp, log, pow, atan2, asin, acos, besselI0Scaled over lanes: our own, because the C library picks variants by
+// processor and so would not give the same bits everywhere (and has none for eight lanes).
 //
 // Method: argument reduction and minimax polynomials (degrees as in the classical single-precision Cephes set); the
 // accuracy stated at each function is measured by tests/core_lane_math_test.cpp.
