@@ -10,6 +10,11 @@
 
 namespace penumbra {
 
+inline constexpr ParameterInfo kGapThicknessParameter{"float", "thickness", "0.01",
+                                                      "of the gap, which absorbs one e-fold a unit"};
+inline constexpr ParameterInfo kGapAlbedoParameter{"spectrum", "albedo", "0",
+                                                   "of scattering in the gap (lessens its absorption)"};
+
 /// What the gap of a coat absorbs of a perpendicular crossing: `thickness`, `albedo`, `g`, `nsamples` of the scene
 /// format. Scattering in the gap is not simulated: gaps are optically thin, and light that scatters mostly goes on to
 /// where it went anyway, so only the absorbed part of the extinction, (1 - albedo) thickness, counts. A warning says so.

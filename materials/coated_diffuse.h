@@ -116,8 +116,8 @@ struct CoatedDiffuseMaterial : RoughnessInputs, RoughnessTableInputs {
     static constexpr ParameterInfo kParameters[] = {
         {"spectrum", "reflectance", "0.5", "of the base; texture or any spectrum"},
         {"float", "eta", "1.5", "index of the coat; a spectrum counts with its mean"},
-        {"float", "thickness", "0.01", "of the gap, which absorbs one e-fold a unit"},
-        {"spectrum", "albedo", "0", "of scattering in the gap (lessens its absorption)"},
+        kGapThicknessParameter,
+        kGapAlbedoParameter,
         {"integer", "maxdepth", "10", "light meets the base at most half as often, rounded up"},
         kRoughnessParameter,
         kURoughnessParameter,
