@@ -86,8 +86,22 @@ private:
     template <class F>
     static UInt<F> mediumOf(const SurfacePoint<F>& at, const RayGroup<F>& g, const Vec3<F>& w) {
         if (none(at.shape.has(kShapeMediumBoundary))) return g.medium;
-        const Mask<F> crosses = dot(w, at.ng) * dot(g.direction, at.ng) > F(0.f);
-        return select(crosses, mediumBehind(at, w, g.medium), g.medium);
+        return select(crosses(at, g, w), mediumBehind(at, w, g.medium), g.medium);
+    }
+
+    /// Whether a ray that leaves in the direction w goes through the surface.
+    template <class F>
+    static Mask<F> crosses(const SurfacePoint<F>& at, const RayGroup<F>& g, const Vec3<F>& w) {
+        return dot(w, at.ng) * dot(g.direction, at.ng) > F(0.f);
+    }
+
+    /// Whether w leads through a surface that shines itself: there light is found by the path alone. Light is sampled
+    /// from this side of the surface, where in such a direction its own light would be all there is to see; but rays
+    /// that go through leave from the far side and never meet it.
+    template <class F>
+    static Mask<F> throughLight(const SurfacePoint<F>& at, const RayGroup<F>& g, const Vec3<F>& w) {
+        const Mask<F> shines = at.shape.light != UInt<F>(kNone);
+        return none(shines) ? shines : shines & crosses(at, g, w);
     }
 
     template <class F>
@@ -139,7 +153,7 @@ private:
         PathRay<F> next;
         next.direction = at.frame.toWorld(s.wi);
         next.throughput = g.throughput * s.weight;
-        next.bsdfPdf = select(s.delta, F(0.f), s.pdf);
+        next.bsdfPdf = select(s.delta | throughLight(at, g, next.direction), F(0.f), s.pdf);
         next.etaScale = g.etaScale * s.eta * s.eta;
         next.coneWidth = coneWidth;
         next.slot = g.slot;
@@ -173,7 +187,7 @@ private:
         LightSample<F> light = sampleLight<F>(scene.lights, id, from, numbers.get2(Dim::LightPosition));
         if (!scene.lightMasks.empty())
             light.L *= scene.lightMasks.at<F>(scene.geometry, scene.textures, id, from + light.wi * light.distance);
-        Mask<F> wanted = lit & light.valid & picked;
+        Mask<F> wanted = lit & light.valid & picked & (light.delta | !throughLight(at, g, light.wi));
         if (strategy_ == Strategy::BsdfOnly) wanted = wanted & light.delta;
         if (none(wanted)) return;
         const BsdfEval<F> f = bsdf.evaluate(wo, at.frame.toLocal(light.wi));

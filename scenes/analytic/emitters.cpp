@@ -440,6 +440,38 @@ void addFormFactors(std::vector<AnalyticScene>& scenes) {
     scenes.push_back(under);
 }
 
+/// Surfaces that shine and scatter too: what goes through one of them starts beyond it, and cannot be lit by it.
+void addShiningSheets(std::vector<AnalyticScene>& scenes) {
+    const auto add = [&](AnalyticScene scene) {
+        scenes.push_back(scene);
+        scenes.push_back(with(AnalyticScene::Strategy::LightSampling, scene));
+        scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, scene));
+    };
+    const std::string lamp = "AreaLightSource \"diffuse\" \"rgb L\" [ 1 1 1 ] \"bool twosided\" true\n";
+    const std::string paper = lamp + "Material \"diffusetransmission\" \"rgb reflectance\" [ .1 .1 .1 ] "
+                                     "\"rgb transmittance\" [ .8 .8 .8 ]\n";
+    const std::string triangle = "Shape \"trianglemesh\" \"point3 P\" [ -3 -2 0  3 -2 0  0 4 0 ]";
+    const auto alone = [&](const std::string& id, const std::string& claim, const std::string& world) {
+        const std::string camera = orthographicView({1, 2, 3}, {0, 0, 0}, {0, 1, 0}, .3);
+        add({.id = id,
+             .claim = claim,
+             .text = sceneText({.camera = camera, .maxDepth = 3}, world),
+             .expected = grey(1),
+             .exact = true});
+    };
+    alone("B24 sheet", "a lone sheet that shines 1 on both sides and lets light through: 1", paper + floorSquare(1));
+    alone("B24 triangle", "the same, a triangle", paper + triangle + "\n");
+    alone("B24 bent", "a lone triangle whose smooth normals send much of what it scatters into itself shines 1",
+          lamp + diffuse(.5) + triangle + " \"normal N\" [ -4 -3 1  4 -3 1  0 5 1 ]\n");
+
+    constexpr double kReflected = .1, kTransmitted = .8;
+    const std::string camera = orthographicView({0, 0, 5}, {0, 0, 0}, {0, 1, 0}, .6);
+    add({.id = "B24 globe",
+         .claim = "a paper globe that shines 1 on both sides: inside 1 / (1 - rho), outside 1 + tau times that",
+         .text = sceneText({.camera = camera, .maxDepth = 12}, paper + sphere(1)),
+         .expected = grey(1 + kTransmitted * (1 - std::pow(kReflected, 12)) / (1 - kReflected))});
+}
+
 }  // namespace
 
 std::vector<AnalyticScene> analyticEmitters() {
@@ -454,6 +486,7 @@ std::vector<AnalyticScene> analyticEmitters() {
     addPortal(scenes);
     addLightsOfOneDirection(scenes);
     addFormFactors(scenes);
+    addShiningSheets(scenes);
     return scenes;
 }
 
