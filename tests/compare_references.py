@@ -16,13 +16,11 @@ What is asked:
   grey      (nothing coloured, so spectral and RGB transport agree) channel means within 0.1 %; z-scores of blocks
             (luminance): none beyond 4.5, standard deviation 0.9-1.1 (a deviation outside that chance explains, within two
             of its own standard errors, is reported and forgiven)
-  coloured  every block and channel within 5 standard deviations plus an allowance for RGB instead of spectral
-            transport: a fraction of the block's strongest channel, as far as its colours are saturated
+  spectral  (coloured, rendered for thirty wavelengths by spectral_scene.py, as pbrt renders) every block and channel within
+            5 standard deviations plus 1 % of the block's strongest channel
+  coloured  (the same scenes with --rgb, rendered as Penumbra does: a colour is three numbers) as before, but a fraction that
+            depends on how saturated the scene is; what is beyond it here, and not in spectral, is a matter of colour alone
   tungsten  channel means within 0.5 % of an RGB renderer's picture
-
-Saturated colours under a clear coat differ by far more than any allowance (spectral_coat.py says why and by how much). Scenes
-with such a coat are rendered from a copy in which its reflectance is the one that gives RGB transport the colour that
-spectra give; --plain-coats renders them as they are.
 
 Writes to OUT: NAME.png (ours | reference | difference over
 tiles of 4 pixels: red where ours is brighter, blue where darker, full at 10 %),
@@ -37,14 +35,14 @@ import struct
 import subprocess
 import sys
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 try:
     import numpy as np
 except ImportError:
     sys.exit("compare_references.py needs numpy (Debian: python3-numpy)")
 
-from spectral_coat import equivalent
+import spectral_scene
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
@@ -52,20 +50,19 @@ LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 @dataclass
 class Scene:
     name: str
-    kind: str               # grey, coloured, tungsten
+    kind: str               # grey, coloured (which becomes spectral without --rgb), tungsten
     spp: int                # of ours, each seed
-    allowance: float = 0.0  # coloured: fraction of the block's strongest channel
+    allowance: float = 0.0  # coloured, with --rgb: fraction of the block's strongest channel
     group: str = "bench"    # bench: in BENCH; public: in SCENES
     block: int = 16         # pixels
-    coat: str = ""          # the reflectance of a saturated coat, as the scene file writes it
 
     @property
     def file(self):
         return self.name.replace("/", "--")
 
 
-# Allowances: white, grey and pastel surfaces in white light differ by a few tenths of a per cent; saturated ones by a few
-# per cent a bounce in the strong channel (two bounces on the green wall of a Cornell box: 5.6 %).
+# Allowances of RGB transport: white, grey and pastel surfaces in white light differ by a few tenths of a per cent;
+# saturated ones by a few per cent a bounce in the strong channel (two bounces on the green wall of a Cornell box: 5.6 %).
 SCENES = [
     Scene("cornell-grey", "grey", 4096),
     Scene("cornell-glossy-grey", "grey", 4096),
@@ -76,9 +73,9 @@ SCENES = [
     Scene("cornell-box/scene-v4", "tungsten", 512, group="public"),
     Scene("cornell-box/scene-v4", "coloured", 512, 0.06, group="public"),
     Scene("veach-mis/scene-v4", "coloured", 512, 0.02, group="public"),
-    Scene("coffee/scene-v4", "coloured", 512, 0.06, group="public", coat="1 0.378676 0.013473"),
+    Scene("coffee/scene-v4", "coloured", 512, 0.06, group="public"),
     Scene("classroom/scene-v4", "coloured", 256, 0.03, group="public"),
-    Scene("material-testball/scene-v4", "coloured", 512, 0.03, group="public", coat="0.243117 0.059106 0.000849"),
+    Scene("material-testball/scene-v4", "coloured", 512, 0.03, group="public"),
     Scene("staircase2/scene-v4", "coloured", 256, 0.06, group="public"),
     Scene("cornell-variants/cornell-box-silver", "coloured", 512, 0.06, group="public"),
     Scene("cornell-variants/cornell-box-specular", "coloured", 512, 0.06, group="public"),
@@ -91,6 +88,8 @@ SCENES = [
     Scene("veach-mis-colorized/veach-mis-colorized", "coloured", 512, 0.06, group="public"),
 ]
 
+SPECTRAL_ALLOWANCE = 0.01  # coloured, rendered spectrally
+SPECTRAL_SAVING = 8        # a spectral picture is the sum of many copies, each with that many times fewer samples
 
 WIDTH = max(len(s.name) for s in SCENES)
 
@@ -255,7 +254,7 @@ def judge_tungsten(scene, ours, references):
     return dict(mean_error=[float(x) for x in off]), problems, []
 
 
-JUDGES = dict(grey=judge_grey, coloured=judge_coloured, tungsten=judge_tungsten)
+JUDGES = dict(grey=judge_grey, coloured=judge_coloured, spectral=judge_coloured, tungsten=judge_tungsten)
 
 
 # ---- renders ----------------------------------------------------------------------------------------------------------
@@ -290,45 +289,31 @@ def references_of(scene, args):
     return np.stack([read_rgb(os.path.join(args.scenes, "pbrt-ref", f"{scene.file}-seed{i}.exr")) for i in (1, 2)])
 
 
-def source_of(scene, args, bench):
-    """The scene file; of a scene with a saturated coat a copy, with that coat's reflectance as RGB transport needs it."""
-    if scene.group == "bench":
-        return os.path.join(bench, scene.name + ".pbrt")
-    source = os.path.join(args.scenes, scene.name + "-small.pbrt")
-    if not scene.coat or args.plain_coats:
-        return source
-    with open(source) as file:
-        text = file.read()
-    if scene.coat not in text:
-        raise Failure(f"{source}: no reflectance {scene.coat}")
-    folder = os.path.join(args.out, scene.file + "-scene")
-    os.makedirs(folder, exist_ok=True)
-    for entry in os.scandir(os.path.dirname(source)):
-        link = os.path.join(folder, entry.name)
-        if entry.is_dir() and not os.path.lexists(link):
-            os.symlink(os.path.abspath(entry.path), link)
-    copy = os.path.join(folder, os.path.basename(source))
-    reflectance = equivalent([float(x) for x in scene.coat.split()])
-    with open(copy, "w") as file:
-        file.write(text.replace(scene.coat, " ".join(f"{x:.6f}" for x in reflectance)))
-    return copy
-
-
 def render(scene, args, bench, width, height):
     """Our picture, once a seed; one that is there already, of the same scene and sample count, is taken as it is."""
-    spp = max(1, int(scene.spp * args.quality))
-    pictures = []
-    for seed in range(args.seed, args.seed + args.seeds):
-        path = os.path.join(args.out, f"{scene.file}-{spp}spp-seed{seed}.exr")
+    folder, suffix = (bench, ".pbrt") if scene.group == "bench" else (args.scenes, "-small.pbrt")
+    source = os.path.join(folder, scene.name + suffix)
+    spectral = scene.kind == "spectral"
+    spp = max(1, int(scene.spp * args.quality) // (SPECTRAL_SAVING if spectral else 1))
+
+    def picture_of(source, seed, path):
         if not (args.keep and os.path.exists(path)):
-            command = [args.penumbra, "render", source_of(scene, args, bench), "-o", path, "--spp", str(spp), "--seed", str(seed), "--quiet",
+            command = [args.penumbra, "render", source, "-o", path, "--spp", str(spp), "--seed", str(seed), "--quiet",
                        "--resolution", f"{width}x{height}"]
             run(command + (["-t", str(args.threads)] if args.threads else []) + args.extra.split())
         picture = read_rgb(path)
         if not np.isfinite(picture).all():
             raise Failure(f"{path}: {np.count_nonzero(~np.isfinite(picture))} values are not finite")
-        pictures.append(picture)
-    return np.stack(pictures)
+        return picture
+
+    def spectral_picture_of(seed):
+        return spectral_scene.render(source, os.path.join(args.out, scene.file + "-scene"), lambda copy, i: picture_of(
+            copy, seed * spectral_scene.COPIES + i, os.path.join(args.out, f"{scene.file}-{spp}spp-seed{seed}-copy{i}.exr")))
+
+    seeds = range(args.seed, args.seed + args.seeds)
+    if spectral:
+        return np.stack([spectral_picture_of(seed) for seed in seeds])
+    return np.stack([picture_of(source, seed, os.path.join(args.out, f"{scene.file}-{spp}spp-seed{seed}.exr")) for seed in seeds])
 
 
 def compare(scene, args, bench):
@@ -350,7 +335,7 @@ def line(scene, result):
     if scene.kind == "grey":
         more = "  ".join(f"z{b}: sd {z['rms']:.3f} max {z['worst']:.2f} noise {100 * z['noise']:.2f} %"
                          for b, z in ((b, result[f"z{b}"]) for b in (scene.block, scene.block // 2)))
-    elif scene.kind == "coloured":
+    elif scene.kind in ("coloured", "spectral"):
         more = (f"blocks: median {100 * result['median_block']:.2f} %, largest {100 * result['largest_block']:.2f} %, "
                 f"noise {100 * result['noise']:.2f} %; beyond {100 * scene.allowance:g} %: {result['worst']:.1f} sd")
     else:
@@ -370,7 +355,7 @@ def arguments():
     parser.add_argument("--quality", type=float, default=1.0, help="factor on all sample counts (default 1)")
     parser.add_argument("-t", "--threads", type=int, help="threads of the renderer")
     parser.add_argument("--keep", action="store_true", help="take renders that are in OUT already")
-    parser.add_argument("--plain-coats", action="store_true", help="render saturated coats as the scenes have them")
+    parser.add_argument("--rgb", action="store_true", help="render coloured scenes in RGB, not spectrally")
     parser.add_argument("--extra", default="", help="further arguments for every render, in one string")
     args = parser.parse_args()
     if args.seeds < 2:
@@ -388,7 +373,9 @@ def arguments():
 def main():
     args = arguments()
     os.makedirs(args.out, exist_ok=True)
-    wanted = [s for s in SCENES if (args.bench if s.group == "bench" else args.scenes)
+    scenes = SCENES if args.rgb else [replace(s, kind="spectral", allowance=SPECTRAL_ALLOWANCE) if s.kind == "coloured" else s
+                                      for s in SCENES]
+    wanted = [s for s in scenes if (args.bench if s.group == "bench" else args.scenes)
               and (not args.only or {s.name, os.path.dirname(s.name)} & set(args.only))]
     report, failed, broken = [], False, False
     print(f"{'scene':<{WIDTH}} {'kind':<9} {'R %':>8} {'G %':>8} {'B %':>8}")
@@ -402,7 +389,7 @@ def main():
             print(line(scene, result))
             entry.update(result, problems=problems, notes=notes)
             failed |= bool(problems)
-        except Failure as failure:
+        except (Failure, spectral_scene.Unknown) as failure:
             problems, notes, broken = [str(failure)], [], True
             print(f"{scene.name:<{WIDTH}} {scene.kind:<9}")
             entry.update(problems=problems)

@@ -68,7 +68,7 @@ void keepOnly(std::vector<T>& list, const std::string& what, const std::string& 
 }
 
 std::string row(const PluginInfo& plugin, bool withParameters) {
-    std::string text = fmt::format("  {:<18} {}\n", plugin.name, plugin.summary);
+    std::string text = fmt::format("  {:<20} {}\n", plugin.name, plugin.summary);
     if (!withParameters) return text;
     for (const ParameterInfo& p : plugin.parameters)
         text +=
