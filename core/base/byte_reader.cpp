@@ -188,4 +188,51 @@ std::string ByteReader::libraryVersion() {
     return std::string("zlib ") + zlibVersion();
 }
 
+struct ZlibReader::Stream {
+    z_stream zlib{};
+    std::string_view left;  ///< not given to zlib yet, which counts in 32 bits
+};
+
+ZlibReader::ZlibReader(std::string_view packed) : stream_(std::make_unique<Stream>()) {
+    stream_->left = packed;
+    if (inflateInit(&stream_->zlib) != Z_OK) throw std::bad_alloc();
+}
+
+ZlibReader::~ZlibReader() {
+    inflateEnd(&stream_->zlib);
+}
+
+bool ZlibReader::read(unsigned char* out, std::size_t n) {
+    return inflateSome(out, n) == Z_OK;
+}
+
+bool ZlibReader::endsRight() {
+    unsigned char more;
+    return inflateSome(&more, 1) != Z_DATA_ERROR;
+}
+
+int ZlibReader::inflateSome(unsigned char* out, std::size_t n) {
+    constexpr std::size_t kMost = std::size_t{1} << 30;
+    z_stream& zlib = stream_->zlib;
+    while (n > 0) {
+        if (zlib.avail_in == 0) {
+            const std::string_view part = stream_->left.substr(0, kMost);
+            zlib.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(part.data()));
+            zlib.avail_in = static_cast<uInt>(part.size());
+            stream_->left.remove_prefix(part.size());
+        }
+        const uInt wanted = static_cast<uInt>(std::min(n, kMost));
+        zlib.next_out = out;
+        zlib.avail_out = wanted;
+        const int result = inflate(&zlib, Z_NO_FLUSH);
+        if (result == Z_MEM_ERROR) throw std::bad_alloc();
+        const uInt got = wanted - zlib.avail_out;
+        out += got;
+        n -= got;
+        // With room left and no more to come (Z_BUF_ERROR), or at the end of the stream, there are too few data.
+        if (n > 0 && result != Z_OK) return result;
+    }
+    return Z_OK;
+}
+
 }  // namespace penumbra

@@ -3,9 +3,10 @@
 #include "core/base/atomic_file.h"
 #include "core/base/module.h"
 #include "core/base/version.h"
-#include "core/image/essentials.h"
+#include "core/image/jpeg_essentials.h"
 #include "core/image/oiio_module.h"
 #include "core/image/pfm.h"
+#include "core/image/png.h"
 
 #include <fmt/format.h>
 
@@ -17,8 +18,6 @@ namespace {
 
 const char* oiioName(ImageFormat format) {
     switch (format) {
-        case ImageFormat::Png:
-            return "png";
         case ImageFormat::Jpeg:
             return "jpeg";
         case ImageFormat::Hdr:
@@ -29,6 +28,7 @@ const char* oiioName(ImageFormat format) {
             return "targa";
         case ImageFormat::Exr:
         case ImageFormat::Pfm:
+        case ImageFormat::Png:
             break;  // read without OpenImageIO
     }
     return "";
@@ -76,11 +76,10 @@ void check(const std::string& path, const OiioResult& result) {
     refuse(path, result->reason);
 }
 
-/// An open file. PNG and JPEG are read from memory, from which the parts that no picture needs have been taken away.
+/// An open file. A JPEG is read from memory, from which the parts that no picture needs have been taken away.
 class Input {
 public:
     Input(const std::string& path, ImageFormat format, const ImageLimits& limits) : path_(path) {
-        if (format == ImageFormat::Png) bytes_ = pngEssentials(path, limits);
         if (format == ImageFormat::Jpeg) bytes_ = jpegEssentials(path, limits);
         check(path, oiioFor(path).open({oiioName(format), path.c_str(), bytes_}, reader_));
     }
@@ -101,24 +100,18 @@ private:
     std::unique_ptr<OiioReader> reader_;
 };
 
-/// How many of the file's channels make the image: grey with alpha gives grey, alpha is kept of PNG only.
-int keptChannels(ImageFormat format, int inFile) {
-    if (inFile <= 2) return 1;
-    return inFile == 4 && format == ImageFormat::Png ? 4 : 3;
-}
-
-Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const ReadImageOptions& options) {
-    Input in(path, file.format, options.limits);
+Image readWithLibrary(const std::string& path, const ImageFileInfo& file, const ImageLimits& limits) {
+    Input in(path, file.format, limits);
     const OiioSpec spec = in.spec();
     if (spec.channels < 1 || !spec.isFlat) refuse(path, "not a flat picture");
 
-    const int channels = keptChannels(file.format, spec.channels);
+    const int channels = spec.channels <= 2 ? 1 : 3;  // alpha is kept of other formats only
     const bool isByte = spec.values == OiioValues::Bytes;
     checkImageSize(path, spec.width, spec.height,
                    std::max<std::uint64_t>(spec.bytesPerPixel, isByte ? 1 : channels * sizeof(float)), file.bytes,
-                   options.limits, file.format == ImageFormat::Hdr ? 4 * kMostExpansion : kMostExpansion);
+                   limits, file.format == ImageFormat::Hdr ? 4 * kMostExpansion : kMostExpansion);
 
-    const TransferFunction encoding = file.format == ImageFormat::Png ? options.pngEncoding : TransferFunction::srgb();
+    const TransferFunction encoding = TransferFunction::srgb();
     if (isByte)
         return Image(spec.width, spec.height, channels, in.pixels<std::uint8_t>(OiioValues::Bytes, channels), encoding);
     std::vector<float> pixels = in.pixels<float>(OiioValues::Floats, channels);
@@ -177,7 +170,8 @@ Image readImage(const std::string& path, const ReadImageOptions& options) {
         const ImageFileInfo file = identifyImageFile(path);
         if (file.format == ImageFormat::Exr) return readExrImage(path, options.limits);
         if (file.format == ImageFormat::Pfm) return readPfm(path, file.bytes, options.limits);
-        return readWithLibrary(path, file, options);
+        if (file.format == ImageFormat::Png) return readPng(path, options.pngEncoding, options.limits);
+        return readWithLibrary(path, file, options.limits);
     });
 }
 

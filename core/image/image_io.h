@@ -1,5 +1,5 @@
-// Image files in and out. OpenImageIO is loaded with the first file that needs it (core/image/oiio_module.h); EXR and
-// PFM do without.
+// Image files in and out. OpenImageIO is loaded with the first file that needs it (core/image/oiio_module.h); EXR, PFM
+// and PNG that are read do without.
 //
 // Reading: a file is what its first bytes say (EXR, PNG, JPEG, HDR, TIFF, PFM), never what its name says; TGA, which
 // has no magic, by its extension and a valid header. All else is refused. Sizes are checked before memory is allocated,
