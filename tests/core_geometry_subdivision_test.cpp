@@ -1,7 +1,7 @@
 // Subdivision surfaces: values known on paper, what refining must not change, whole topology, and hostile meshes.
 #include "core/geometry/subdivision.h"
 
-#include "tests/double_vectors.h"
+#include "core/math/double_vector.h"
 #include "tests/expect_error.h"
 #include "tests/geometry_fixture.h"
 

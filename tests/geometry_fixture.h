@@ -7,7 +7,7 @@
 
 #include "core/geometry/geometry.h"
 #include "core/geometry/mesh.h"
-#include "tests/double_vectors.h"
+#include "core/math/double_vector.h"
 
 #include <algorithm>
 #include <array>

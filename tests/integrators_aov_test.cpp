@@ -2,7 +2,7 @@
 // rendered.
 #include "core/base/parallel.h"
 #include "core/image/exr.h"
-#include "tests/double_vectors.h"
+#include "core/math/double_vector.h"
 #include "tests/integrators_fixture.h"
 #include "tests/run_program.h"
 

@@ -61,8 +61,9 @@ std::string sceneOf(const std::string& view, int maxDepth, const std::string& wo
            world;
 }
 
-std::unique_ptr<RenderJob> render(const std::string& text, Strategy strategy = Strategy::BsdfOnly) {
+std::unique_ptr<RenderJob> renderIn(IntersectionMode mode, const std::string& text, Strategy strategy) {
     RenderOptions options;
+    options.build.intersection = mode;
     options.build.strategy = strategy;
     options.build.roulette = RouletteRule::Off;
     return renderText(text, options);
@@ -78,16 +79,23 @@ std::size_t strays(const RenderJob& job, std::initializer_list<double> allowed, 
     return count;
 }
 
-class Offsets : public testing::TestWithParam<Place> {};
+/// Small scenes are traced by a list of their faces, and by Embree where that is asked for.
+class Offsets : public testing::TestWithParam<std::tuple<Place, IntersectionMode>> {
+protected:
+    static const Place& place() { return std::get<Place>(GetParam()); }
+    static std::unique_ptr<RenderJob> render(const std::string& text, Strategy strategy = Strategy::BsdfOnly) {
+        return renderIn(std::get<IntersectionMode>(GetParam()), text, strategy);
+    }
+};
 
 /// Every wall emits .5 and reflects .5: 1, after up to 60 bounces of 4096 paths, where no ray leaves.
 TEST_P(Offsets, ClosedFurnace) {
     for (const auto& [name, shape] : bodies()) {
         const auto job =
-            render(sceneOf(viewText(GetParam(), {.3, -.2, .1}, {.8, .6, -.5}, 70), 60,
+            render(sceneOf(viewText(place(), {.3, -.2, .1}, {.8, .6, -.5}, 70), 60,
                            scoped("Material \"diffuse\" \"rgb reflectance\" [ .5 .5 .5 ]\n"
                                   "AreaLightSource \"diffuse\" \"rgb L\" [ .5 .5 .5 ] \"bool twosided\" true\n" +
-                                  placeText(GetParam()) + shape)));
+                                  placeText(place()) + shape)));
         EXPECT_EQ(strays(*job, {1}), 0u) << name;
         EXPECT_GT(job->counts().rays, 60u * 4096) << name;
     }
@@ -97,15 +105,15 @@ TEST_P(Offsets, ClosedFurnace) {
 TEST_P(Offsets, NoLightGetsIn) {
     const std::string sky =
         "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\nMaterial \"diffuse\" \"rgb reflectance\" [ 1 1 1 ]\n";
-    const std::string view = viewText(GetParam(), {.3, -.2, .1}, {.8, .6, -.5}, 70);
+    const std::string view = viewText(place(), {.3, -.2, .1}, {.8, .6, -.5}, 70);
     for (const auto& [name, shape] : bodies()) {
         const std::string object = "ObjectBegin \"body\"\n" + shape + "ObjectEnd\n";
         const std::string turning =
             "ActiveTransform EndTime\nTranslate .1 0 .05\nRotate 40 1 2 3\nActiveTransform All\n";
         for (const std::string& world :
-             {scoped(placeText(GetParam()) + shape),
-              object + scoped(placeText(GetParam()) + "ObjectInstance \"body\"\n"),
-              object + scoped(placeText(GetParam()) + turning + "ObjectInstance \"body\"\n")})
+             {scoped(placeText(place()) + shape),
+              object + scoped(placeText(place()) + "ObjectInstance \"body\"\n"),
+              object + scoped(placeText(place()) + turning + "ObjectInstance \"body\"\n")})
             for (const Strategy strategy : {Strategy::BsdfOnly, Strategy::LightOnly}) {
                 const auto job = render(sceneOf(view, 30, sky + world), strategy);
                 EXPECT_EQ(strays(*job, {0}), 0u) << name << " " << strategyName(strategy) << "\n"
@@ -120,9 +128,9 @@ TEST_P(Offsets, ConvexBodiesDoNotShadowThemselves) {
         "LightSource \"infinite\" \"rgb L\" [ 1 1 1 ]\nMaterial \"diffuse\" \"rgb reflectance\" [ .5 .5 .5 ]\n";
     for (const auto& [name, shape] : bodies()) {
         const std::string object = "ObjectBegin \"body\"\n" + shape + "ObjectEnd\n";
-        for (const std::string& world : {scoped(placeText(GetParam()) + shape),
-                                         object + scoped(placeText(GetParam()) + "ObjectInstance \"body\"\n")}) {
-            const auto job = render(sceneOf(viewText(GetParam(), {2.5, -2, 1.5}, {0, 0, 0}, 40), 8, sky + world));
+        for (const std::string& world : {scoped(placeText(place()) + shape),
+                                         object + scoped(placeText(place()) + "ObjectInstance \"body\"\n")}) {
+            const auto job = render(sceneOf(viewText(place(), {2.5, -2, 1.5}, {0, 0, 0}, 40), 8, sky + world));
             EXPECT_EQ(strays(*job, {0.5, 1}), 0u) << name;
             EXPECT_LT(strays(*job, {1}), 4096u);
             EXPECT_GT(strays(*job, {1}), 1000u);
@@ -133,7 +141,7 @@ TEST_P(Offsets, ConvexBodiesDoNotShadowThemselves) {
 /// A floor through the place's origin, turned by any angles, under light that grazes it at an angle of down to 0.06
 /// degrees: every sample shows the same irradiance, seen from above and seen as grazingly.
 TEST_P(Offsets, GrazingLight) {
-    const Place& p = GetParam();
+    const Place& p = place();
     const double rounding = p.offset * 0x1p-24 / p.scale;  // of the corners: it tilts the floor
     Random random(1);
     for (int i = 0; i < 6; ++i) {
@@ -165,8 +173,13 @@ TEST_P(Offsets, GrazingLight) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Places, Offsets, testing::ValuesIn(kPlaces),
-                         [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Places, Offsets,
+                         testing::Combine(testing::ValuesIn(kPlaces),
+                                          testing::Values(IntersectionMode::Robust, IntersectionMode::Embree)),
+                         [](const auto& info) {
+                             const bool byEmbree = std::get<1>(info.param) == IntersectionMode::Embree;
+                             return std::string(std::get<0>(info.param).name) + (byEmbree ? "ByEmbree" : "");
+                         });
 
 }  // namespace
 }  // namespace penumbra

@@ -2,8 +2,8 @@
 // without it the property tests do not compile, with it they all run on the type.
 #pragma once
 
+#include "core/math/double_vector.h"
 #include "lights/registry.h"
-#include "tests/double_vectors.h"
 
 #include <cmath>
 #include <functional>

@@ -25,7 +25,12 @@ const char* lightSamplingName(bool classicArea) {
     return classicArea ? "area" : "solid-angle";
 }
 const char* intersectionName(IntersectionMode mode) {
-    return mode == IntersectionMode::Robust ? "robust" : "fast";
+    switch (mode) {
+        case IntersectionMode::Embree: return "embree";
+        case IntersectionMode::Fast: return "fast";
+        case IntersectionMode::Robust: break;
+    }
+    return "robust";
 }
 
 }  // namespace

@@ -354,8 +354,12 @@ void addTransport(Arguments& arguments, RenderRequest& r) {
                    "header and --stats put in numbers; off lets the film's maxcomponentvalue not count, either",
                    [&b](const std::string& t) { b.clamp = parseClamp(t); });
     addEnum<IntersectionMode>(arguments, "--intersection",
-                              {{"robust", IntersectionMode::Robust}, {"fast", IntersectionMode::Fast}}, b.intersection,
-                              "watertight, or faster with a ray in a million slipping through edges (default: robust)");
+                              {{"robust", IntersectionMode::Robust},
+                               {"embree", IntersectionMode::Embree},
+                               {"fast", IntersectionMode::Fast}},
+                              b.intersection,
+                              "watertight, with a way of its own for scenes of few faces; watertight by Embree alone; or "
+                              "Embree's faster mode, where a ray in a million slips through an edge (default: robust)");
 }
 
 void addRunning(Arguments& arguments, RenderRequest& r) {

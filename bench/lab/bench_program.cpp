@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <map>
 #include <new>
 
 namespace penumbra {
@@ -54,13 +55,13 @@ void BenchProgram::addSceneOptions() {
     app_->add_option("--integrator", b.integrator, "the integrator")
         ->check(CLI::IsMember(pluginNames(IntegratorTypes{})));
     app_->add_option("--maxdepth", b.maxDepth, "scattering events of a path at most")->check(CLI::Range(0, kMostDepth));
+    static const std::map<std::string, IntersectionMode> modes{
+        {"robust", IntersectionMode::Robust}, {"embree", IntersectionMode::Embree}, {"fast", IntersectionMode::Fast}};
     app_->add_option_function<std::string>(
-            "--intersection",
-            [&b](const std::string& name) {
-                b.intersection = name == "fast" ? IntersectionMode::Fast : IntersectionMode::Robust;
-            },
-            "watertight (the default), or faster with a ray in a million slipping through edges")
-        ->check(CLI::IsMember({"robust", "fast"}));
+            "--intersection", [&b](const std::string& name) { b.intersection = modes.at(name); },
+            "robust: watertight (the default); embree: the same without the way that small scenes have of their own; "
+            "fast: a ray in a million slips through edges")
+        ->check(CLI::IsMember(modes));
     app_->add_option("-t,--nthreads", threads_, "threads (default: one per processor)")
         ->check(CLI::Range(1, kMostThreads));
     app_->add_option("--lanes", options_.controls.lanes, "paths side by side: 8 or 1")

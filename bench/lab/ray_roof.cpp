@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <optional>
 
 namespace penumbra {
 namespace {
@@ -44,7 +45,8 @@ public:
     std::size_t tiles() const { return tiles_.size(); }
     std::uint32_t samplesPerPixel() const { return samplesPerPixel_; }
     std::uint64_t samples() const;
-    ReplayCounts replay(ReplayMode mode) const;
+    /// Through the accelerator that rendering used.
+    ReplayCounts replayAsRendered() const { return replay(scene_.accelerator, ReplayMode::Packets); }
     void checkReplay(const ReplayCounts& found) const;
     Rates round(int number);
 
@@ -53,8 +55,11 @@ private:
     void renderTile(RecordedTile& t, RayRecorder* recorder, RenderCounts& counts);
     void render();
     void run(Contestant contestant);
+    ReplayCounts replay(const Accelerator& accelerator, ReplayMode mode) const;
+    const Accelerator& embree() const { return embree_ ? *embree_ : scene_.accelerator; }
 
     const Scene& scene_;
+    std::optional<Accelerator> embree_;   ///< where rendering does without
     RenderControls controls_;
     std::uint32_t samplesPerPixel_;
     std::unique_ptr<Integrator> integrator_;
@@ -74,6 +79,7 @@ Contest::Contest(const RenderJob& job, std::size_t memoryBytes)
     for (const Tile& tile : scatteredTiles(film_.crop(), job.options().tileSize))
         tiles_.push_back({tile, RayRecord(store_)});
     tilesOfPicture_ = tiles_.size();
+    if (scene_.accelerator.hasFaceList()) embree_.emplace(scene_.geometry, IntersectionMode::Embree, &scene_.textures);
     record();
     if (tiles_.empty())
         throw Error(ErrorKind::Usage,
@@ -105,12 +111,12 @@ void Contest::render() {
     });
 }
 
-ReplayCounts Contest::replay(ReplayMode mode) const {
+ReplayCounts Contest::replay(const Accelerator& accelerator, ReplayMode mode) const {
     ReplayCounts total;
     std::mutex mutex;  // counts are merged once a tile
     parallelFor(tiles_.size(), [&](std::size_t i) {
         const FlushDenormals flush;  // as rendering does
-        const ReplayCounts counts = tiles_[i].rays.replay(scene_.accelerator, mode);
+        const ReplayCounts counts = tiles_[i].rays.replay(accelerator, mode);
         const std::lock_guard lock(mutex);
         total.add(counts);
     });
@@ -140,10 +146,10 @@ void Contest::checkReplay(const ReplayCounts& found) const {
 void Contest::run(Contestant contestant) {
     switch (contestant) {
         case kPackets:
-            replay(ReplayMode::Packets);
+            replay(embree(), ReplayMode::Packets);
             break;
         case kSingly:
-            replay(ReplayMode::Singly);
+            replay(embree(), ReplayMode::Singly);
             break;
         default:
             render();
@@ -177,7 +183,7 @@ RayRoof measureRayRoof(const RenderJob& job, const RayRoofOptions& options) {
     result.tilesOfPicture = contest.tilesOfPicture();
     result.samplesPerPixel = contest.samplesPerPixel();
     result.samples = contest.samples();
-    result.rays = contest.replay(ReplayMode::Packets);
+    result.rays = contest.replayAsRendered();
     contest.checkReplay(result.rays);
     contest.round(0);  // not counted: the first of each brings its code and data into the caches
 

@@ -3,7 +3,8 @@
 // The rays that a render traces are recorded (ray_record.h), then traced again raw on the same threads, once in the
 // packets of eight that rendering used and once one by one: no camera, shading, sorting or film. The faster of the two
 // is the roof of any renderer that traces these rays through Embree, and rendering's samples per second are given as a
-// fraction of it. Rendering and the two replays take turns, in an order that changes from round to round, and each
+// fraction of it. (Small scenes are rendered without Embree, see core/geometry/face_list.h: there the fraction may be above
+// one.) Rendering and the two replays take turns, in an order that changes from round to round, and each
 // round gives a fraction of its own: so what the machine does meanwhile falls on all three alike.
 //
 // What is measured are whole tiles, with all their samples (at most kMostSamplesPerPixel a pixel), from all over the

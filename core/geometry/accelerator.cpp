@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/alpha_mask.h"
+#include "core/geometry/face_list.h"
 #include "core/geometry/quadrics.h"
 
 #if PENUMBRA_EMBREE_MAJOR >= 4
@@ -213,6 +214,7 @@ struct Accelerator::State {
     std::vector<MaskedShape> masks;   // of shapes with holes; Embree holds pointers to them
     std::uint32_t firstInstance = 0;
     bool hasInstances = false;
+    std::unique_ptr<FaceList> faces;   // in place of Embree for the packets of a small scene
 
     ~State() {
         for (RTCScene s : scenes) rtcReleaseScene(s);
@@ -277,7 +279,7 @@ struct Accelerator::State {
     void buildGroup(const Geometry& g, std::size_t group, IntersectionMode mode, const Textures* textures) {
         RTCScene scene = rtcNewScene(device);
         scenes[group] = scene;
-        rtcSetSceneFlags(scene, mode == IntersectionMode::Robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+        rtcSetSceneFlags(scene, mode == IntersectionMode::Fast ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
         const ShapeGroup& range = g.groups[group];
         for (unsigned i = 0; i < range.shapeCount; ++i) {
@@ -328,6 +330,7 @@ Accelerator::Accelerator(const Geometry& geometry, IntersectionMode mode, const 
     state_->scenes.resize(geometry.groups.size());
     const auto masked = std::count_if(geometry.shapes.begin(), geometry.shapes.end(), [](const ShapeRecord& s) { return s.isMasked(); });
     state_->masks.reserve(std::size_t(masked));
+    if (mode == IntersectionMode::Robust) state_->faces = FaceList::make(geometry);
     for (std::size_t i = geometry.groups.size(); i-- > 0;) state_->buildGroup(geometry, i, mode, textures);   // the world last: it refers to the others
 }
 Accelerator::Accelerator() = default;
@@ -386,6 +389,7 @@ RTCRay singleRay(const RayPacket& r, int i) {
 }  // namespace
 
 void Accelerator::intersect(RayHitPacket& rays, unsigned live, Coherence coherence) const noexcept {
+    if (state_->faces) return state_->faces->intersect(rays, live);
     const LiveLanes lanes(live);
     trace(state_->scenes[0], lanes.valid, rays, coherence);
     if (!state_->hasInstances) return;
@@ -395,6 +399,7 @@ void Accelerator::intersect(RayHitPacket& rays, unsigned live, Coherence coheren
 }
 
 void Accelerator::occluded(RayPacket& rays, unsigned live) const noexcept {
+    if (state_->faces) return state_->faces->occluded(rays, live);
     const LiveLanes lanes(live);
     trace(state_->scenes[0], lanes.valid, rays);
 }
@@ -420,6 +425,8 @@ void Accelerator::occludedSingly(RayPacket& rays, unsigned live) const noexcept 
         rays.far[i] = r.tfar;
     }
 }
+
+bool Accelerator::hasFaceList() const { return state_->faces != nullptr; }
 
 SceneBounds Accelerator::bounds() const {
     RTCBounds b;

@@ -1,5 +1,5 @@
-// Accelerator: Embree's acceleration structures over a Geometry. With accelerator.cpp the only file that knows Embree, in
-// version 3.13 or 4.
+// Accelerator: what finds the hits of rays in a Geometry: Embree's acceleration structures, or a list of the faces where the
+// scene is small (face_list.h). With accelerator.cpp the only file that knows Embree, in version 3.13 or 4.
 //
 // Rays are given eight at a time (ray_packet.h), with a bit mask of the live lanes. Rays must be finite: Debian's Embree is
 // built with assertions and aborts on NaN. Hits of instances carry the instance's row, others kNoHit; dead lanes keep what
@@ -18,8 +18,9 @@ namespace penumbra {
 class Textures;
 
 enum class IntersectionMode {
-    Robust,   ///< watertight (the default)
-    Fast      ///< 10 to 28 % faster; about one ray in a million slips through an edge
+    Robust,   ///< watertight (the default): small scenes by FaceList, others by Embree's robust mode
+    Embree,   ///< Embree's robust mode whatever the scene's size
+    Fast      ///< Embree's other mode: 10 to 28 % faster; about one ray in a million slips through an edge
 };
 
 /// What the caller knows of the rays of a packet. For speed; results are the same in Robust mode. In Fast mode a few hits at
@@ -43,6 +44,7 @@ public:
     void intersect(RayHitPacket& rays, unsigned live, Coherence coherence = Coherence::Incoherent) const noexcept;
     /// Sets far to -infinity where something lies between near and far.
     void occluded(RayPacket& rays, unsigned live) const noexcept;
+    bool hasFaceList() const;
     /// One by one through Embree's single-ray calls: for ray_roof's comparison only; bits may differ from the packets'.
     void intersectSingly(RayHitPacket& rays, unsigned live) const noexcept;
     void occludedSingly(RayPacket& rays, unsigned live) const noexcept;

@@ -1,6 +1,7 @@
 #include "core/geometry/subdivision.h"
 
 #include "core/base/error.h"
+#include "core/math/double_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -17,16 +18,6 @@ constexpr std::size_t next(std::size_t i) {
 }
 constexpr std::size_t previous(std::size_t i) {
     return (i + 2) % 3;
-}
-
-Vec3d operator+(const Vec3d& a, const Vec3d& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec3d operator-(const Vec3d& a, const Vec3d& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vec3d operator*(const Vec3d& a, double s) {
-    return {a.x * s, a.y * s, a.z * s};
 }
 
 /// Edge k of a face leads from corner k to the next one.

@@ -1,5 +1,7 @@
 #include "core/math/matrix.h"
 
+#include "core/math/double_vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,14 +12,6 @@ namespace penumbra {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-double dot(Vec3d a, Vec3d b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vec3d cross(Vec3d a, Vec3d b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// False, and `out` untouched, where `v` has no direction.
 bool normalized(Vec3d v, Vec3d& out) {

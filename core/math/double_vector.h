@@ -1,4 +1,4 @@
-// Vectors in double, for tests that compute what hot code must give by other means.
+// Arithmetic of vectors in double, for cold code, and for tests that compute what hot code must give by other means.
 #pragma once
 
 #include "core/math/matrix.h"
@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace penumbra::test {
+namespace penumbra {
 
 inline Vec3d operator+(Vec3d a, Vec3d b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -36,4 +36,4 @@ inline Vec3d widened(const Vec3<float>& a) {
     return {a.x, a.y, a.z};
 }
 
-}  // namespace penumbra::test
+}  // namespace penumbra
