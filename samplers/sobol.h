@@ -60,7 +60,7 @@ private:
             case Dim::Roulette: return 6;
             case Dim::ShadowRoulette: return 7;
             case Dim::Mix: return 8;
-            case Dim::Material: return 7;  // a seed, to be hashed: how it is stratified with others does not matter
+            case Dim::Material: return 7;  // hashed whole: its leading bits, which stand in lockstep with the other 7, decide nothing
         }
         return 0;
     }

@@ -58,6 +58,7 @@ TEST(Film, ReplicatesGiveTheSpreadOfTheirMeans) {
     film.add(0, 1, {5, 0, 0}, 1, true);
     film.add(0, 2, {3, 0, 0}, 1, true);
     film.add(0, 3, {7, 0, 0}, 1, true);
+    EXPECT_EQ(film.samples(0), 4u);
     const PixelEstimate e = film.estimate(0);
     EXPECT_DOUBLE_EQ(e.mean[0], 4);
     EXPECT_NEAR(e.standardError[0], 2, 1e-12);   // means 2 and 6: sd 2.83, over sqrt 2

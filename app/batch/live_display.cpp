@@ -257,9 +257,7 @@ void LiveDisplay::send(Part& part) {
 std::uint64_t LiveDisplay::state(const Tile& window) const {
     std::uint64_t samples = 0;
     job_.visitTiles(window, [&](const Tile& t) {
-        samples += job_.film()
-                       .estimate(std::size_t(t.y0) * std::size_t(job_.film().crop().width()) + std::size_t(t.x0))
-                       .samples;
+        samples += job_.film().samples(std::size_t(t.y0) * std::size_t(job_.film().crop().width()) + std::size_t(t.x0));
     });
     return samples;
 }

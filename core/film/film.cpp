@@ -23,9 +23,13 @@ Film::Film(const CropWindow& crop, int replicates, double normalization, const A
 }
 
 void Film::estimateAovs(std::size_t pixel, std::span<float> out) const {
-    std::uint32_t samples = 0;
-    for (int r = 0; r < replicates_; ++r) samples += sums_[pixel * std::size_t(replicates_) + std::size_t(r)].samples;
-    aovs_.estimate(pixel, samples, normalization_, out);
+    aovs_.estimate(pixel, samples(pixel), normalization_, out);
+}
+
+std::uint32_t Film::samples(std::size_t pixel) const {
+    std::uint32_t sum = 0;
+    for (int r = 0; r < replicates_; ++r) sum += sums_[pixel * std::size_t(replicates_) + std::size_t(r)].samples;
+    return sum;
 }
 
 PixelEstimate Film::estimate(std::size_t pixel) const {
@@ -33,10 +37,8 @@ PixelEstimate Film::estimate(std::size_t pixel) const {
     PixelEstimate e{};
     const PixelSums* plane = &sums_[pixel * std::size_t(replicates_)];
     std::int64_t covered = 0;
-    for (int r = 0; r < replicates_; ++r) {
-        e.samples += plane[r].samples;
-        covered += plane[r].covered;
-    }
+    e.samples = samples(pixel);
+    for (int r = 0; r < replicates_; ++r) covered += plane[r].covered;
     const double n = e.samples;
     e.alpha = n > 0 ? std::fmin(std::fmax(double(covered) / n * normalization_, 0.0), 1.0) : 0;
     for (int c = 0; c < 3; ++c) {

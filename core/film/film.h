@@ -75,6 +75,8 @@ public:
     }
 
     PixelEstimate estimate(std::size_t pixel) const;
+    /// How many samples the pixel has, as its estimate says.
+    std::uint32_t samples(std::size_t pixel) const;
 
     /// What is seen beside the picture; empty where nobody asked for it.
     AovSums& aovs() { return aovs_; }
