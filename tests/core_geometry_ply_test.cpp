@@ -125,7 +125,7 @@ std::string compressed(const std::string& text) {
 
 TriangleMesh meshOf(const std::string& file) {
     Warnings strict(true);
-    return readPlyBytes(file, "m.ply", strict);
+    return readPlyBytes(file, "m.ply", strict).mesh;
 }
 
 std::string errorOf(const std::string& file) {
@@ -288,7 +288,7 @@ TEST(Ply, PolygonsMixAndOthersAreCounted) {
         for (std::size_t f = 0; f < faces.size(); ++f)
             writer.list("uchar", "int", faces[f]).value("int", static_cast<double>(f)).endOfEntry();
         Warnings warnings;
-        const TriangleMesh mesh = readPlyBytes(writer.text(), "m.ply", warnings);
+        const TriangleMesh mesh = readPlyBytes(writer.text(), "m.ply", warnings).mesh;
         EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2, 0, 2, 3, 3, 2, 1}));
         EXPECT_EQ(mesh.faceIndices, (std::vector<std::int32_t>{1, 3, 3, 6}));
         EXPECT_EQ(warnings.all(),
@@ -345,7 +345,7 @@ TEST(Ply, SkippedListsLargerThanTheBlockOfTheReader) {
         writer.values("float", kSquare).list("uint", "uint", {0, 1, 2});
         writer.list("uint", "uint", std::vector<double>(100000, 9e8)).list("uint", "uint", {0, 2, 3});
         Warnings warnings;
-        expectSquare(readPlyBytes(writer.text(), "m.ply", warnings));
+        expectSquare(readPlyBytes(writer.text(), "m.ply", warnings).mesh);
     }
 }
 
@@ -371,10 +371,10 @@ protected:
 TEST_F(PlyFile, GzipIsKnownByItsFirstBytes) {
     Warnings strict(true);
     for (const Coding coding : kCodings) {
-        expectSquare(readPly(write("plain.ply", squareFile(coding)), strict));
-        expectSquare(readPly(write("packed.ply.gz", compressed(squareFile(coding))), strict));
-        expectSquare(readPly(write("packed.ply", compressed(squareFile(coding))), strict));
-        expectSquare(readPly(write("plain.ply.gz", squareFile(coding)), strict));
+        expectSquare(readPly(write("plain.ply", squareFile(coding)), strict).mesh);
+        expectSquare(readPly(write("packed.ply.gz", compressed(squareFile(coding))), strict).mesh);
+        expectSquare(readPly(write("packed.ply", compressed(squareFile(coding))), strict).mesh);
+        expectSquare(readPly(write("plain.ply.gz", squareFile(coding)), strict).mesh);
     }
 }
 
@@ -611,7 +611,7 @@ TEST(PlyHostile, MutantsAreReadOrRefused) {
         }
         try {
             Warnings warnings;
-            TriangleMesh mesh = readPlyBytes(file, "m.ply", warnings);
+            TriangleMesh mesh = readPlyBytes(file, "m.ply", warnings).mesh;
             for (const std::uint32_t index : mesh.indices)
                 ASSERT_LT(index, mesh.vertexCount());
             dropBadTriangles(mesh);

@@ -90,6 +90,14 @@ const std::vector<std::pair<std::string, std::string>>& scenes() {
                              "ObjectInstance \"thing\"\n") +
                       scoped("ActiveTransform EndTime\nTranslate 0 .5 0\nActiveTransform All\nTranslate -1 .4 -.3\n"
                              "Shape \"sphere\" \"float radius\" .4\n"))},
+        {"under a curved picture",
+         settings(3, outside,
+                  floor +
+                      scoped("AreaLightSource \"diffuse\" \"string filename\" \"wood.pfm\" \"float scale\" 3 "
+                             "\"bool twosided\" true\n"
+                             "Shape \"bilinearmesh\" \"point3 P\" [ -2 2.2 -1  2 1.2 -1  -2 1 2  1 2.4 1.5 ]\n") +
+                      scoped("Translate 0 .4 0\nMaterial \"conductor\" \"float roughness\" .4\n"
+                             "Shape \"sphere\" \"float radius\" .4\n"))},
     };
     return list;
 }

@@ -190,7 +190,7 @@ public:
     PlyBody(ByteReader& bytes, const PlyHeader& header, Warnings& warnings)
         : bytes_(bytes), header_(header), file_(bytes.name()), warnings_(warnings) {}
 
-    TriangleMesh read() {
+    PatchMesh read() {
         checkElements();
         switch (header_.format) {
             case PlyFormat::Ascii:
@@ -208,7 +208,7 @@ public:
             warnings_.add(file_ + ": " + std::to_string(skippedPolygons_) +
                           " polygons of neither 3 nor 4 corners are skipped");
         if (mesh_.indices.empty()) warnings_.add(file_ + ": has no triangles");
-        return std::move(mesh_);
+        return {std::move(mesh_), std::move(quads_)};
     }
 
 private:
@@ -385,18 +385,18 @@ private:
     std::uint64_t entry_ = 0, skippedPolygons_ = 0;
 };
 
-TriangleMesh readMesh(ByteReader bytes, Warnings& warnings) {
+PatchMesh readMesh(ByteReader bytes, Warnings& warnings) {
     const PlyHeader header = readPlyHeader(bytes);
     return PlyBody(bytes, header, warnings).read();
 }
 
 }  // namespace
 
-TriangleMesh readPly(const std::string& path, Warnings& warnings) {
+PatchMesh readPly(const std::string& path, Warnings& warnings) {
     return readMesh(ByteReader::open(path), warnings);
 }
 
-TriangleMesh readPlyBytes(std::string_view bytes, const std::string& name, Warnings& warnings) {
+PatchMesh readPlyBytes(std::string_view bytes, const std::string& name, Warnings& warnings) {
     return readMesh(ByteReader::overMemory(bytes, name), warnings);
 }
 

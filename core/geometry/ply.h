@@ -5,16 +5,16 @@
 // any scalar type and order, lists any integer type of length; all other elements and properties are skipped.
 //
 // Polygons: triangles are taken as they are; a quad a b c d becomes the triangles a b c and a c d (a b d and b c d
-// where it is concave at b or d), which is the same surface where it is planar. pbrt takes a quad for a bilinear patch:
-// one that is not planar therefore differs a little here (its fold is sharp), and so do uvs inside a quad that is no
-// parallelogram, and the uvs pbrt invents for a quad without any. Other polygons are skipped; one warning counts them.
+// where it is concave at b or d), which is the same surface where it is planar. pbrt takes a quad for a bilinear patch;
+// what to do about those that are far from planar is up to dice() (patches.h). Uvs inside a quad that is planar, but no
+// parallelogram, differ from pbrt's a little. Other polygons are skipped; one warning counts them.
 //
 // Hostile input: Error(BadData), "file:line: ..." in the header and "file: element entry: ..." behind it. Counts are
 // checked against the size of the file before memory is taken for them, indices against the number of vertices. Numbers
 // that are not finite are kept: dropBadTriangles() removes what they spoil.
 #pragma once
 
-#include "core/geometry/mesh.h"
+#include "core/geometry/patches.h"
 
 #include <string>
 #include <string_view>
@@ -22,9 +22,9 @@
 namespace penumbra {
 
 /// Error(MissingInput) where the file cannot be opened.
-TriangleMesh readPly(const std::string& path, Warnings& warnings);
+PatchMesh readPly(const std::string& path, Warnings& warnings);
 
 /// The same for a file that is in memory; `name` stands for its path in messages.
-TriangleMesh readPlyBytes(std::string_view bytes, const std::string& name, Warnings& warnings);
+PatchMesh readPlyBytes(std::string_view bytes, const std::string& name, Warnings& warnings);
 
 }  // namespace penumbra

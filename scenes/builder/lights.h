@@ -66,9 +66,11 @@ private:
     std::map<int, AreaEmission> read_;
 };
 
-/// Makes the shape's triangles lights: one where two of them are a rectangle, else one each. REQUIRES: the shape is in
-/// `geometry`, in world space.
-void addMeshLights(const AreaEmission& emission, const Geometry& geometry, LightTable& lights, ShapeRecord& shape);
+/// Makes the shape's triangles lights: one where two of them are a rectangle, else one each. Triangles of one face, by
+/// `faceOfTriangle`, (which ascends), share its power; where that is empty, each is a face. REQUIRES: the shape is in `geometry`, in
+/// world space.
+void addMeshLights(const AreaEmission& emission, const Geometry& geometry,
+                   const std::vector<std::int32_t>& faceOfTriangle, LightTable& lights, ShapeRecord& shape);
 /// `worldFromObject` as in the quadric, in double.
 void addQuadricLight(const AreaEmission& emission, const QuadricRecord& quadric, const Matrix4& worldFromObject,
                      LightTable& lights, ShapeRecord& shape);

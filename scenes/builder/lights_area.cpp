@@ -84,6 +84,25 @@ std::optional<RectangleShape> rectangleOf(const Geometry& g, const ShapeRecord& 
     return rectangleOfTriangles(a.corner, b.corner);
 }
 
+/// The area of the face that each triangle is a part of.
+class FaceAreas {
+public:
+    FaceAreas(const Geometry& g, const ShapeRecord& shape, const std::vector<std::int32_t>& faceOfTriangle)
+        : faceOfTriangle_(faceOfTriangle) {
+        if (faceOfTriangle.empty()) return;
+        areas_.resize(std::size_t(faceOfTriangle.back()) + 1);  // they ascend
+        for (std::uint32_t i = 0; i < shape.count; ++i)
+            areas_[std::size_t(faceOfTriangle[i])] += LightTriangle(g, shape, i).area;
+    }
+    double of(std::uint32_t index, const LightTriangle& triangle) const {
+        return faceOfTriangle_.empty() ? triangle.area : areas_[std::size_t(faceOfTriangle_[index])];
+    }
+
+private:
+    const std::vector<std::int32_t>& faceOfTriangle_;
+    std::vector<double> areas_;
+};
+
 /// Adds a light on a shape, with the picture as `lay` lays it there.
 template <class Light, class Lay>
 void addLight(const AreaEmission& emission, Light light, LightTable& lights, Lay&& lay) {
@@ -139,24 +158,26 @@ void AreaLightLibrary::readPicture(const Entity& entity, const std::string& file
                                        [&] { return makePicture(image.rgb, image.width, image.height, tables_); });
 }
 
-void addMeshLights(const AreaEmission& emission, const Geometry& geometry, LightTable& lights, ShapeRecord& shape) {
+void addMeshLights(const AreaEmission& emission, const Geometry& geometry,
+                   const std::vector<std::int32_t>& faceOfTriangle, LightTable& lights, ShapeRecord& shape) {
+    const FaceAreas areas(geometry, shape, faceOfTriangle);
     const std::uint32_t flags = lightFlags(emission, shape);
     shape.light = lights.size();
     if (const std::optional<RectangleShape> r = rectangleOf(geometry, shape, emission.picture.has_value())) {
         const LightTriangle half(geometry, shape, 0);
+        const Spectrum<float> radiance = emission.radianceOf(areas.of(0, half));
         addLight(
-            emission,
-            RectangleLight::make(r->corner, r->edgeX, r->edgeY, half.facing, emission.radianceOf(half.area), flags),
-            lights, [&](const EmissionPicture& picture) { return onTriangle(picture, half.corner, half.uv); });
+            emission, RectangleLight::make(r->corner, r->edgeX, r->edgeY, half.facing, radiance, flags), lights,
+            [&](const EmissionPicture& picture) { return onTriangle(picture, half.corner, half.uv); });
         return;
     }
     shape.lightStride = 1;
     for (std::uint32_t i = 0; i < shape.count; ++i) {
         const LightTriangle t(geometry, shape, i);
+        const Spectrum<float> radiance = emission.radianceOf(areas.of(i, t));
         addLight(
-            emission,
-            TriangleLight::make(t.corner[0], t.corner[1], t.corner[2], t.facing, emission.radianceOf(t.area), flags),
-            lights, [&](const EmissionPicture& picture) { return onTriangle(picture, t.corner, t.uv); });
+            emission, TriangleLight::make(t.corner[0], t.corner[1], t.corner[2], t.facing, radiance, flags), lights,
+            [&](const EmissionPicture& picture) { return onTriangle(picture, t.corner, t.uv); });
     }
 }
 

@@ -21,7 +21,7 @@ List takeList(ParameterSet& parameters, const char* type, const char* name) {
 /// Moves the arrays of a mesh out of its directive's parameters.
 MeshArrays takeMeshArrays(ParameterSet& parameters);
 
-/// The mesh of a bilinearmesh, each patch (p00 p10 p01 p11) as two triangles. Errors as meshFromArrays has them.
-TriangleMesh meshFromPatches(MeshArrays arrays, const std::string& where, Warnings& warnings);
+/// The mesh of a bilinearmesh, whose indices are p00 p10 p01 p11 of each patch. Errors as meshFromArrays has them.
+PatchMesh meshFromPatches(MeshArrays arrays, const std::string& where, Warnings& warnings);
 
 }  // namespace penumbra::builder

@@ -93,32 +93,42 @@ bool ShapeBuilder::buildCurves(ShapeEntity& shape, const ShapePlace& place, Buil
 
 bool ShapeBuilder::buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out) {
     out.record.kind = ShapeKind::Mesh;
-    out.mesh = readMesh(shape);
-    TriangleMesh& mesh = out.mesh;
+    PatchMesh faces = readMesh(shape);
     if (meshFacts_)
-        meshFacts_->push_back({context_.position(shape.where), shape.type,
-                               topologyOf(weldedIndices(mesh.indices, mesh.positions), mesh.vertexCount())});
-    mesh.faceIndices = {};
-    const bool needsUv = out.record.flags & (kShapeNeedsUv | kShapeNeedsTangent);
-    if (!needsUv && !(out.emission && out.emission->picture)) mesh.uvs = {};
-    if (!(out.record.flags & kShapeNeedsTangent)) mesh.tangents = {};
+        meshFacts_->push_back(
+            {context_.position(shape.where), shape.type,
+             topologyOf(weldedIndices(faces.mesh.indices, faces.mesh.positions), faces.mesh.vertexCount())});
+    faces.mesh.faceIndices = {};
+    DiceOptions cut;
+    cut.place = place.groupFromObject;
+    cut.needsUv = out.record.flags & (kShapeNeedsUv | kShapeNeedsTangent) || (out.emission && out.emission->picture);
+    cut.polygons = shape.type == "plymesh";
+    cut.numbersFaces = out.emission && out.emission->power > 0;
+    cut.mostTriangles = std::min(cut.mostTriangles, roomForDiced_);
+    if (!cut.needsUv) faces.mesh.uvs = {};
+    if (!(out.record.flags & kShapeNeedsTangent)) faces.mesh.tangents = {};
+    const std::size_t whole = faces.mesh.triangleCount();
+    out.mesh = dice(std::move(faces), cut);
+    TriangleMesh& mesh = out.mesh;
+    if (mesh.triangleCount() > whole) roomForDiced_ -= mesh.triangleCount();
     if (!(place.groupFromObject == Matrix4{})) transform(mesh, place.groupFromObject);
     if (shape.reverseOrientation)
         for (float& n : mesh.normals)
             n = -n;
     counts_.droppedTriangles += dropBadTriangles(mesh);
+    if (cut.numbersFaces) out.faceOfTriangle = std::move(mesh.faceIndices);
+    mesh.faceIndices = {};
     if (mesh.triangleCount() == 0)
         context_.warn(shape.where, ownerName("shape", shape.type) + ": no triangle is left of the mesh");
     return mesh.triangleCount() != 0;
 }
 
-TriangleMesh ShapeBuilder::readMesh(ShapeEntity& shape) {
+PatchMesh ShapeBuilder::readMesh(ShapeEntity& shape) {
     const std::string where = context_.position(shape.where) + ": " + ownerName("shape", shape.type);
     ParameterSet& p = shape.parameters;
     if (shape.type == "plymesh") return readPlyMesh(shape);
     if (shape.type == "bilinearmesh") {
-        context_.warnOnce("shape bilinearmesh", shape.where,
-                          "the shape 'bilinearmesh' is not there yet; triangles stand in for its patches");
+        // An image by which pbrt samples the patch as a light, which alters no expectation.
         p.text("emissionfilename", "");
         return meshFromPatches(takeMeshArrays(p), where, context_.warnings());
     }
@@ -128,12 +138,12 @@ TriangleMesh ShapeBuilder::readMesh(ShapeEntity& shape) {
         MeshArrays control;
         control.P = takeList<std::vector<float>>(p, "point3", "P");
         control.indices = takeList<std::vector<std::int32_t>>(p, "integer", "indices");
-        return subdivideLoop(meshFromArrays(std::move(control), where, context_.warnings()), levels, where);
+        return {subdivideLoop(meshFromArrays(std::move(control), where, context_.warnings()), levels, where), {}};
     }
-    return meshFromArrays(takeMeshArrays(p), where, context_.warnings());
+    return {meshFromArrays(takeMeshArrays(p), where, context_.warnings()), {}};
 }
 
-TriangleMesh ShapeBuilder::readPlyMesh(const ShapeEntity& shape) {
+PatchMesh ShapeBuilder::readPlyMesh(const ShapeEntity& shape) {
     const ParameterSet& p = shape.parameters;
     const std::string owner = ownerName("shape", shape.type);
     const std::string file = p.text("filename", "");

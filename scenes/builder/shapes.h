@@ -6,6 +6,7 @@
 #include "scenes/builder/media.h"
 
 #include "core/geometry/geometry.h"
+#include "core/geometry/patches.h"
 #include "scenes/mesh_facts.h"
 
 namespace penumbra::builder {
@@ -15,6 +16,7 @@ struct BuiltShape {
     ShapeRecord record;  ///< kind, flags and media; the rest is filled in by the geometry's tables
     SceneMaterial material;
     TriangleMesh mesh;  ///< where record.kind is Mesh
+    std::vector<std::int32_t> faceOfTriangle;  ///< of lights that ask for it; empty: each is a face of its own
     QuadricRecord quadric;
     CurveSet curves;
     Matrix4 groupFromObject;
@@ -57,9 +59,8 @@ private:
     bool buildCurves(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     bool buildMesh(ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
     bool buildQuadric(const ShapeEntity& shape, const ShapePlace& place, BuiltShape& out);
-    TriangleMesh readMesh(ShapeEntity& shape);
-    TriangleMesh readPlyMesh(const ShapeEntity& shape);
-    TriangleMesh readBilinearMesh(ShapeEntity& shape);
+    PatchMesh readMesh(ShapeEntity& shape);
+    PatchMesh readPlyMesh(const ShapeEntity& shape);
     QuadricRecord readSphere(const ShapeEntity& shape);
     QuadricRecord readDisk(const ShapeEntity& shape);
     QuadricRecord readCylinder(const ShapeEntity& shape);
@@ -75,6 +76,7 @@ private:
     const bool showsUv_;
     std::vector<MeshFacts>* meshFacts_;
     ShapeCounts counts_;
+    std::size_t roomForDiced_ = std::size_t(1) << 23;  ///< triangles of patches, in the whole scene
 };
 
 /// Whether rays can be taken through the matrix and back in float: it has an inverse, and all is far from overflow.

@@ -212,7 +212,7 @@ void WorldBuilder::append(BuiltShape& shape) {
     record.material = scene_.materials.id(shape.material.handle);
     if (shape.emission) {
         if (isMesh)
-            addMeshLights(*shape.emission, g, scene_.lights, record);
+            addMeshLights(*shape.emission, g, shape.faceOfTriangle, scene_.lights, record);
         else
             addQuadricLight(*shape.emission, shape.quadric, shape.groupFromObject, scene_.lights, record);
         if (record.isMasked() && !(record.flags & kShapeInvisible))

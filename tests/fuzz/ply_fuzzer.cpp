@@ -8,8 +8,7 @@
 namespace penumbra {
 namespace {
 
-void readMesh(const std::string& bytes, Warnings& warnings) {
-    TriangleMesh mesh = readPlyBytes(bytes, "fuzz.ply", warnings);
+void requireSound(const TriangleMesh& mesh) {
     const std::size_t vertices = mesh.vertexCount();
     fuzz::require(mesh.indices.size() % 3 == 0, "triangles have three corners");
     fuzz::require(std::all_of(mesh.indices.begin(), mesh.indices.end(), [&](auto i) { return i < vertices; }),
@@ -17,9 +16,22 @@ void readMesh(const std::string& bytes, Warnings& warnings) {
     fuzz::require(mesh.normals.empty() || mesh.normals.size() == 3 * vertices, "each vertex has its normal");
     fuzz::require(mesh.uvs.empty() || mesh.uvs.size() == 2 * vertices, "each vertex has its uv");
     fuzz::require(mesh.faceIndices.empty() || mesh.faceIndices.size() == mesh.triangleCount(), "triangles have numbers");
+}
+
+void readMesh(const std::string& bytes, Warnings& warnings) {
+    PatchMesh patches = readPlyBytes(bytes, "fuzz.ply", warnings);
+    requireSound(patches.mesh);
     // A byte of a file is worth 100 when it is compressed, and a quad of five bytes is six indices of four.
-    fuzz::require(mesh.positions.size() + mesh.indices.size() <= (std::size_t{64} << 20) + 2000 * bytes.size(),
+    fuzz::require(patches.mesh.positions.size() + patches.mesh.indices.size() <=
+                      (std::size_t{64} << 20) + 2000 * bytes.size(),
                   "a mesh is not larger than its file can say");
+    DiceOptions options;
+    options.needsUv = options.polygons = options.numbersFaces = true;
+    options.mostTriangles = 4096;
+    const std::size_t most = std::max(options.mostTriangles, patches.mesh.triangleCount());
+    TriangleMesh mesh = dice(std::move(patches), options);
+    requireSound(mesh);
+    fuzz::require(mesh.triangleCount() <= most, "no more triangles than allowed");
     dropBadTriangles(mesh);
     bounds(mesh);
 }
