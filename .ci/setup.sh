@@ -5,7 +5,7 @@ set -eu
 
 # docs/HACKING.md says what each of these is for.
 packages="g++ binutils cmake ninja-build ccache
-    libembree-dev libtbb-dev libopenexr-dev libopenimageio-dev libopencolorio-dev zlib1g-dev libssl-dev
+    libembree-dev libtbb-dev libopenexr-dev libopenimageio-dev libopencolorio-dev libpng-dev zlib1g-dev libssl-dev
     libutf8proc-dev libboost-dev libfmt-dev libcli11-dev nlohmann-json3-dev libgtest-dev libbenchmark-dev"
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

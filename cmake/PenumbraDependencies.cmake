@@ -50,6 +50,7 @@ endfunction()
 
 penumbra_find_package(Threads)
 penumbra_find_package(ZLIB)
+penumbra_find_package(PNG)
 penumbra_find_package(OpenSSL COMPONENTS Crypto)
 penumbra_find_library(Penumbra::utf8proc HEADER utf8proc.h LIBRARIES utf8proc)
 penumbra_find_package(TBB CONFIG COMPONENTS tbb)

@@ -70,12 +70,11 @@ struct Samples {
     }
 
     /// A file of these unpacked data, in pieces.
-    std::string file(const std::string& raw, bool interlaced = false, bool rightSum = true) const {
+    std::string file(const std::string& raw, bool interlaced = false) const {
         std::string packed(compressBound(raw.size()), 0);
         uLongf size = packed.size();
         compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(raw.data()), raw.size());
         packed.resize(size);
-        if (!rightSum) packed.back() = char(packed.back() + 1);
         std::string out = "\x89PNG\r\n\x1a\n" + PngFile::chunk("IHDR", header(interlaced));
         if (!palette.empty()) out += PngFile::chunk("PLTE", palette);
         if (!transparency.empty()) out += PngFile::chunk("tRNS", transparency);
@@ -160,40 +159,50 @@ protected:
         }
         return "";
     }
-    void expectRefused(const std::string& bytes, const std::string& reason) {
-        EXPECT_NE(messageOf(bytes).find(reason), std::string::npos) << messageOf(bytes);
+    void expectRefused(const std::string& bytes) {
+        EXPECT_NE(messageOf(bytes).find("the PNG is damaged: "), std::string::npos);
     }
 
     TemporaryFolder folder;
     std::mt19937 generator{6};
 };
 
+/// The reasons are libpng's, in its own words.
 TEST_F(DamagedPng, WhatItsChecksumsDoNotShowIsRefused) {
     const Samples s = random(9, 7, 8, PngFile::Rgba, generator);
     const std::string raw = s.rows(0, 0, 1, 1, 4);
     EXPECT_EQ(messageOf(s.file(raw)), "");
     EXPECT_EQ(messageOf(s.file(raw + "more")), "");  // as other readers have it
     for (const std::size_t length : {std::size_t(0), std::size_t(1), raw.size() - 1})
-        expectRefused(s.file(raw.substr(0, length)), "end too early");
-    expectRefused(s.file(raw, false, false), "wrong checksum of the picture data");
+        expectRefused(s.file(raw.substr(0, length)));
     std::string odd = raw;
     odd[0] = 5;
-    expectRefused(s.file(odd), "unknown filter");
+    expectRefused(s.file(odd));
 
     Samples p = random(9, 7, 4, PngFile::Palette, generator);
     const std::string rows = p.rows(0, 0, 1, 1, 0);
     p.palette.resize(3);
-    p.transparency.clear();
-    expectRefused(p.file(rows), "not in its palette");
     p.transparency = "xy";
-    expectRefused(p.file(rows), "more transparencies than colours");
-    for (const std::size_t size : {0, 4, 3 * 17}) {
+    expectRefused(p.file(rows));
+    for (const std::size_t size : {0, 4}) {
         p.palette.resize(size);
-        expectRefused(p.file(rows), "palette is missing or of a wrong size");
+        expectRefused(p.file(rows));
     }
     Samples c = random(9, 7, 8, PngFile::Rgb, generator);
     c.transparency = "odd";
-    expectRefused(c.file(0, false), "transparent colour");
+    expectRefused(c.file(0, false));
+}
+
+TEST_F(DamagedPng, ColoursThatThePaletteLacksAreBlack) {
+    Samples p = random(9, 7, 4, PngFile::Palette, generator);
+    p.palette.resize(3);
+    p.transparency.clear();
+    p.values.assign(p.values.size(), 0);
+    p.values.back() = 7;
+    const Image image = readImage(folder.file("a.png", p.file(0, false)));
+    EXPECT_EQ(image.value(0, 0, 0), image.value(3, 3, 0));
+    for (int c = 0; c < 3; ++c)
+        EXPECT_EQ(image.value(8, 6, c), 0.f);
 }
 
 TEST_F(DamagedPng, DataThatDoNotInflateNeverDoWorseThanAnError) {

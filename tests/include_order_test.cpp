@@ -62,6 +62,7 @@ const std::vector<ThirdParty>& thirdParties() {
         {"OpenColorIO", std::regex("OpenColorIO/.*"), "core/color/display"},
         {"OpenSSL", std::regex("openssl/.*"), "core/base/sha256"},
         {"utf8proc", std::regex("utf8proc\\.h"), "core/base/unicode"},
+        {"libpng", std::regex("png\\.h"), "core/image/png"},
         {"zlib", std::regex("zlib\\.h"), "core/base/byte_reader"},
         {"nlohmann-json", std::regex("nlohmann/.*"), std::nullopt},
         {"CLI11", std::regex("CLI/.*"), std::nullopt},

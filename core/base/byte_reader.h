@@ -2,7 +2,7 @@
 // two bytes, not by the name). Nothing but one block is held, so a file of any size costs 128 KB.
 //
 // The block is a window onto the stream: fill(n) makes at least n bytes visible from data() on, consume(n) moves on.
-// This is the only file pair that uses zlib. ZlibReader is for data in zlib's own wrapping (RFC 1950), as PNG has them.
+// This is the only file pair that uses zlib.
 //
 // Invariants: available() bytes may be read from data() on, until the next fill(), skip() or move.
 //
@@ -62,29 +62,6 @@ private:
     std::unique_ptr<Source> source_;
     std::unique_ptr<char[]> block_;
     std::size_t begin_ = 0, end_ = 0;
-};
-
-/// Inflates zlib data in memory, which outlive the reader. The caller bounds what is asked for; nothing is held but zlib's
-/// window.
-class ZlibReader {
-public:
-    explicit ZlibReader(std::string_view packed);
-    ~ZlibReader();
-    ZlibReader(const ZlibReader&) = delete;
-    ZlibReader& operator=(const ZlibReader&) = delete;
-
-    /// The next n bytes; false where the data end or are damaged before.
-    bool read(unsigned char* out, std::size_t n);
-    /// After the last read: whether the data end in the checksum that they say they have. (True where there are more data,
-    /// or no end.)
-    bool endsRight();
-
-private:
-    /// Z_OK where zlib has filled n bytes, else what it says.
-    int inflateSome(unsigned char* out, std::size_t n);
-
-    struct Stream;
-    std::unique_ptr<Stream> stream_;
 };
 
 }  // namespace penumbra
