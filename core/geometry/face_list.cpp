@@ -1,6 +1,5 @@
 #include "core/geometry/face_list.h"
 
-#include "core/geometry/quadrics.h"
 #include "core/math/double_vector.h"
 
 #include <algorithm>
@@ -8,12 +7,6 @@
 #include <optional>
 
 namespace penumbra {
-
-namespace {
-
-using F = Lanes8f;
-
-}  // namespace
 
 // ---------------------------------------------------------------------------------------------------- making
 
@@ -38,10 +31,10 @@ public:
             for (; other < shape.count; ++other)
                 if (!taken[other] && (ring = joined(left[i], left[other]))) break;
             const auto& [a, b, c] = left[i];
-            addFace(ring ? *ring : std::array{a, b, c, a});
-            addTriangle(left[i], i, geometry, ring.has_value());
+            addFace(ring ? *ring : std::array{a, b, c, a}, ring.has_value());
+            addTriangle(left[i], i, geometry);
             if (ring) {
-                addTriangle(left[other], other, geometry, false);
+                addTriangle(left[other], other, geometry);
                 taken[other] = true;
             }
         }
@@ -90,17 +83,19 @@ private:
         return true;
     }
 
-    void addFace(const std::array<std::uint32_t, 4>& ring) {
-        const Vec3d from = place(ring[0]), n = cross(place(ring[1]) - from, place(ring[2]) - from);
-        list_.faces_.push_back(
-            {ring, rounded(n * (1 / std::sqrt(dot(n, n)))), list_.corners_[ring[0]], std::uint32_t(list_.triangles_.size())});
+    /// `isPair`: its second triangle begins at corner 2 of the ring.
+    void addFace(const std::array<std::uint32_t, 4>& ring, bool isPair) {
+        const Vec3d from = place(ring[0]), diagonal = place(ring[2]) - from;
+        const Vec3d n = cross(place(ring[1]) - from, diagonal), across = normalized(cross(diagonal, n)) * (isPair ? 1. : 0.);
+        list_.faces_.push_back({ring, rounded(normalized(n)), list_.corners_[ring[0]], std::uint32_t(list_.triangles_.size()),
+                                rounded(across), float(isPair ? dot(across, from) : -1), 0});
     }
-    void addTriangle(const std::array<std::uint32_t, 3>& corners, std::uint32_t primitive, std::uint32_t geometry, bool isPair) {
+    void addTriangle(const std::array<std::uint32_t, 3>& corners, std::uint32_t primitive, std::uint32_t geometry) {
         const Vec3d from = place(corners[0]), e1 = place(corners[1]) - from, e2 = place(corners[2]) - from;
         const Vec3d n = cross(e1, e2);
         const double inverse = 1 / dot(n, n);
-        list_.triangles_.push_back({rounded(cross(e2, n) * inverse), isPair ? 1.f : 0.f, rounded(cross(n, e1) * inverse), primitive,
-                                    list_.corners_[corners[0]], geometry, {}});
+        list_.triangles_.push_back({rounded(cross(e2, n) * inverse), primitive, rounded(cross(n, e1) * inverse), geometry,
+                                    list_.corners_[corners[0]], {}});
     }
 
     FaceList& list_;
@@ -137,7 +132,7 @@ struct FaceList::Rays {
     Vec3<F> from(const Vec3<float>& p) const { return broadcast<F>(p) - origin; }
 };
 
-/// Calls met(face, t, inside) for all faces; t may be anything where not inside.
+/// Calls met(t, inside) for all faces, in order; t may be anything where not inside.
 template <class Met>
 void FaceList::forFaces(const Rays& rays, Met&& met) const {
     // Corners as the rays see them: across, and relative to where they are.
@@ -159,68 +154,64 @@ void FaceList::forFaces(const Rays& rays, Met&& met) const {
         const Vec3<F> normal = broadcast<F>(face.normal);
         // A ray along the plane gives inf or NaN, which no comparison passes.
         const F t = dot(normal, rays.from(face.from)) / dot(normal, rays.direction);
-        met(face, t, inside);
+        met(t, inside);
     }
 }
 
 struct FaceList::Nearest {
     F t;
-    UInt<F> triangle;
+    UInt<F> face;
     Mask<F> met;
 };
 
 void FaceList::intersect(RayHitPacket& packet, unsigned live) const noexcept {
     const Rays rays(packet.ray, live);
     Nearest nearest{load<F>(packet.ray.far), UInt<F>(0u), Mask<F>(false)};
-    forFaces(rays, [&](const Face& face, F t, Mask<F> inside) {
+    UInt<F> number(0u);
+    forFaces(rays, [&](F t, Mask<F> inside) {
         const Mask<F> hit = inside & (t > rays.near) & (t < nearest.t);
         nearest.t = select(hit, t, nearest.t);
-        nearest.triangle = select(hit, UInt<F>(face.triangle), nearest.triangle);
+        nearest.face = select(hit, number, nearest.face);
         nearest.met |= hit;
+        number += UInt<F>(1u);
     });
-    tell(packet, rays, nearest, live);
+    nearest.met &= rays.live;
+    if (any(nearest.met)) tell(packet, rays, nearest);
     for (const Quadric& q : quadrics_) {
-        const Affine<F> m = loadAffine<F>(&q.record->objectFromWorld, UInt<F>(0u));
         const F far = load<F>(packet.ray.far);
-        const auto hit = intersectQuadric(*q.record, m.point(rays.origin), m.vector(rays.direction), rays.near, far);
+        const QuadricHit<F> hit = meet(q, rays, far);
         const Mask<F> met = hit.hit & rays.live;
-        if (none(met)) continue;
-        const auto put = [&](std::uint32_t* to, std::uint32_t value) { store(to, select(met, UInt<F>(value), load<F>(to))); };
-        store(packet.ray.far, select(met, hit.t, far));
-        for (float* to : {packet.hit.u, packet.hit.v}) store(to, select(met, F(0.f), load<F>(to)));
-        put(packet.hit.primitive, 0);
-        put(packet.hit.geometry, q.geometry);
-        put(packet.hit.instance, kNoHit);
+        if (any(met)) tell(packet, met, hit.t, F(0.f), F(0.f), UInt<F>(0u), UInt<F>(q.geometry));
     }
 }
 
+QuadricHit<Lanes8f> FaceList::meet(const Quadric& q, const Rays& rays, const F& far) {
+    const Affine<F> m = loadAffine<F>(&q.record->objectFromWorld, UInt<F>(0u));
+    return intersectQuadric(*q.record, m.point(rays.origin), m.vector(rays.direction), rays.near, far);
+}
+
 /// The triangle that was met, and where.
-void FaceList::tell(RayHitPacket& packet, const Rays& rays, const Nearest& nearest, unsigned) const {
-    const Mask<F> met = nearest.met & rays.live;
-    if (none(met)) return;
-    F u, v, isPair;
-    UInt<F> primitive, geometry;
-    const auto read = [&](const UInt<F>& row) {
-        F a[8], b[4];
-        const UInt<F> at = row * UInt<F>(std::uint32_t(sizeof(Triangle) / 4));
-        loadRows8(&triangles_[0].u.x, at, a);
-        loadRows4(&triangles_[0].u.x, at + UInt<F>(8u), b);
-        const Vec3<F> p = rays.direction * nearest.t - (Vec3<F>{b[0], b[1], b[2]} - rays.origin);
-        u = dot(p, Vec3<F>{a[0], a[1], a[2]});
-        v = dot(p, Vec3<F>{a[4], a[5], a[6]});
-        isPair = a[3];
-        primitive = floatBits(a[7]);
-        geometry = floatBits(b[3]);
-    };
-    const UInt<F> row = select(met, nearest.triangle, UInt<F>(0u));
-    read(row);
-    const Mask<F> beyond = met & (isPair > F(0.f)) & (min(min(u, v), F(1.f) - (u + v)) < F(0.f));
-    if (any(beyond)) read(select(beyond, row + UInt<F>(1u), row));
+void FaceList::tell(RayHitPacket& packet, const Rays& rays, const Nearest& nearest) const {
+    static_assert(sizeof(Face) == 64 && sizeof(Triangle) == 64);
+    const UInt<F> face = select(nearest.met, nearest.face, UInt<F>(0u)) * UInt<F>(16u);
+    const Vec3<F> along = rays.direction * nearest.t, p = rays.origin + along;
+    F d[4], w[8], from[4];
+    loadRows4(&faces_[0].acrossDiagonal.x, face, d);
+    const UInt<F> first = gather(&faces_[0].triangle, face);
+    const UInt<F> row = first + select(dot(p, Vec3<F>{d[0], d[1], d[2]}) < d[3], UInt<F>(1u), UInt<F>(0u));
+    loadRows8(&triangles_[0].u.x, row * UInt<F>(16u), w);
+    loadRows4(&triangles_[0].from.x, row * UInt<F>(16u), from);
+    const Vec3<F> q = along - (Vec3<F>{from[0], from[1], from[2]} - rays.origin);
     // Rounding may have put the point beyond an edge.
-    u = min(max(u, F(0.f)), F(1.f));
-    v = min(max(v, F(0.f)), F(1.f) - u);
+    const F u = min(max(dot(q, Vec3<F>{w[0], w[1], w[2]}), F(0.f)), F(1.f));
+    const F v = min(max(dot(q, Vec3<F>{w[4], w[5], w[6]}), F(0.f)), F(1.f) - u);
+    tell(packet, nearest.met, nearest.t, u, v, floatBits(w[3]), floatBits(w[7]));
+}
+
+void FaceList::tell(RayHitPacket& packet, const Mask<F>& met, const F& t, const F& u, const F& v, const UInt<F>& primitive,
+                    const UInt<F>& geometry) {
     const auto put = [&](auto* to, const auto& value) { store(to, select(met, value, load<F>(to))); };
-    put(packet.ray.far, nearest.t);
+    put(packet.ray.far, t);
     put(packet.hit.u, u);
     put(packet.hit.v, v);
     put(packet.hit.primitive, primitive);
@@ -232,11 +223,9 @@ void FaceList::occluded(RayPacket& packet, unsigned live) const noexcept {
     const Rays rays(packet, live);
     const F far = load<F>(packet.far);
     Mask<F> met(false);
-    forFaces(rays, [&](const Face&, F t, Mask<F> inside) { met |= inside & (t > rays.near) & (t < far); });
-    for (const Quadric& q : quadrics_) {
-        const Affine<F> m = loadAffine<F>(&q.record->objectFromWorld, UInt<F>(0u));
-        met |= intersectQuadric(*q.record, m.point(rays.origin), m.vector(rays.direction), rays.near, far).hit;
-    }
+    forFaces(rays, [&](F t, Mask<F> inside) { met |= inside & (t > rays.near) & (t < far); });
+    for (const Quadric& q : quadrics_)
+        met |= meet(q, rays, far).hit;
     store(packet.far, select(met & rays.live, F(-kInfinity), far));
 }
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "core/geometry/geometry.h"
+#include "core/geometry/quadrics.h"
 #include "core/geometry/ray_packet.h"
 
 #include <array>
@@ -34,23 +35,26 @@ public:
     void occluded(RayPacket& rays, unsigned live) const noexcept;
 
 private:
+    using F = Lanes8f;
     static constexpr std::uint32_t kMostCorners = 128, kMostFaces = 64;
 
-    /// A triangle repeats its first corner.
+    /// A triangle repeats its first corner. Sixteen words.
     struct Face {
         std::array<std::uint32_t, 4> corners;
         Vec3<float> normal, from;   ///< of the plane; `from` is the first corner
         std::uint32_t triangle;     ///< its first row of triangles_
+        Vec3<float> acrossDiagonal;
+        float diagonal;             ///< acrossDiagonal * p below it: p is in the second triangle
+        float spare;
     };
     /// What is said of a hit. Sixteen words, which are read as rows.
     struct Triangle {
         Vec3<float> u;              ///< times the vector from corner 0 to the hit: barycentrics of corners 1 ...
-        float isPair;               ///< 1: what lies outside of this triangle lies in the next row's
-        Vec3<float> v;              ///< ... and 2
         std::uint32_t primitive;
-        Vec3<float> from;           ///< corner 0
+        Vec3<float> v;              ///< ... and 2
         std::uint32_t geometry;
-        float spare[4];
+        Vec3<float> from;           ///< corner 0
+        float spare[5];
     };
     struct Quadric {
         const QuadricRecord* record;
@@ -62,7 +66,10 @@ private:
 
     template <class Met>
     void forFaces(const Rays& rays, Met&& met) const;
-    void tell(RayHitPacket& rays, const Rays& r, const Nearest& nearest, unsigned live) const;
+    void tell(RayHitPacket& packet, const Rays& rays, const Nearest& nearest) const;
+    static void tell(RayHitPacket& packet, const Mask<F>& met, const F& t, const F& u, const F& v, const UInt<F>& primitive,
+                     const UInt<F>& geometry);
+    static QuadricHit<F> meet(const Quadric& q, const Rays& rays, const F& far);
 
     std::vector<Vec3<float>> corners_;
     std::vector<Face> faces_;

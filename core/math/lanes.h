@@ -379,22 +379,6 @@ inline void loadRows8(const float* base, std::uint32_t offset, float out[8]) {
     detail::transpose8(r, c);
     for (int i = 0; i < 8; ++i) out[i] = Lanes8f(detail::V8f(c[i]));
 }
-/// The lanes of `keep`, each as a row of eight floats, `stride` floats apart from p on. Nothing else is written.
-inline void storeRows8(float* p, std::uint32_t, const float in[8], unsigned keep) {
-    if (keep)
-        for (int k = 0; k < 8; ++k) p[k] = in[k];
-}
-[[gnu::always_inline]] inline void storeRows8(float* p, std::uint32_t stride, const Lanes8f in[8], unsigned keep) {
-    __m256 c[8], r[8];
-    for (int i = 0; i < 8; ++i) c[i] = __m256(in[i].v);
-    detail::transpose8(c, r);
-    if (keep == 0xFFu) {   // the usual case, and without a detour through memory
-        for (int i = 0; i < 8; ++i) _mm256_storeu_ps(p + std::uint32_t(i) * stride, r[i]);
-        return;
-    }
-    for (; keep; keep &= keep - 1, p += stride) _mm256_storeu_ps(p, r[std::countr_zero(keep)]);
-}
-
 namespace detail {
 /// For each 8-bit mask, the permutation that moves its set lanes to the front, in order.
 struct CompressTable {
@@ -410,6 +394,21 @@ struct CompressTable {
 };
 inline constexpr CompressTable kCompress{};
 }  // namespace detail
+
+/// The lanes of `keep`, each as a row of eight floats, `stride` floats apart from p on, packed. Room for all lanes must be
+/// there (spare lanes leave junk behind the rows).
+inline void storeRows8(float* p, std::uint32_t, const float in[8], unsigned keep) {
+    if (keep)
+        for (int k = 0; k < 8; ++k) p[k] = in[k];
+}
+[[gnu::always_inline]] inline void storeRows8(float* p, std::uint32_t stride, const Lanes8f in[8], unsigned keep) {
+    // Packed before the transpose, which needs no branch: how many lanes go on is hard to predict.
+    const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(detail::kCompress.index[keep]));
+    __m256 c[8], r[8];
+    for (int i = 0; i < 8; ++i) c[i] = _mm256_permutevar8x32_ps(__m256(in[i].v), order);
+    detail::transpose8(c, r);
+    for (int i = 0; i < 8; ++i) _mm256_storeu_ps(p + std::uint32_t(i) * stride, r[i]);
+}
 
 /// Stores the lanes of `keep` packed at p and returns nothing; room for all lanes must be there (spare lanes hold junk).
 inline void storePacked(float* p, float x, unsigned keep) { if (keep) *p = x; }
