@@ -281,10 +281,11 @@ private:
     void traceNearest(bool fromCamera) {
         const RayBuffer& r = batch_.now();
         counts_.rays += std::uint64_t(batch_.live);
+        RayHitPacket p;
+        preparePacket(p.ray);
         for (int i = 0; i < batch_.live; i += W) {
             const int n = groupSize(i, batch_.live);
             const unsigned live = (1u << n) - 1u;
-            RayHitPacket p;
             F row[8];
             loadRows8(r.rows[i], laneIndices<F>() * UInt<F>(RayBuffer::kStride), row);
             fillPacket(p.ray, row, F(kInfinity), n);
@@ -336,10 +337,11 @@ private:
         const ShadowBuffer& s = batch_.shadows;
         SlotBuffer& slots = batch_.slots;
         counts_.shadowRays += std::uint64_t(batch_.shadowCount);
+        RayPacket p;
+        preparePacket(p);
         for (int i = 0; i < batch_.shadowCount; i += W) {
             const int n = groupSize(i, batch_.shadowCount);
             const unsigned live = (1u << n) - 1u;
-            RayPacket p;
             F row[8];
             loadRows8(s.rows[i], laneIndices<F>() * UInt<F>(ShadowBuffer::kStride), row);
             fillPacket(p, row, row[3], n);
@@ -355,22 +357,25 @@ private:
         }
     }
 
+    /// What all packets have alike; tracing leaves it as it is.
+    static void preparePacket(RayPacket& p) {
+        store(p.near, F(0.f));
+        store(p.time, F(0.f));
+        store(p.mask, UInt<F>(0xFFFFFFFFu));
+        store(p.id, UInt<F>(0u));
+        store(p.flags, UInt<F>(0u));
+    }
     /// `row`: the first eight words of a ray or shadow record: origin, -, direction, slot.
     void fillPacket(RayPacket& p, const F row[8], F far, int n) {
         store(p.originX, row[0]);
         store(p.originY, row[1]);
         store(p.originZ, row[2]);
-        store(p.near, F(0.f));
         store(p.directionX, row[4]);
         store(p.directionY, row[5]);
         store(p.directionZ, row[6]);
-        F time(0.f);
-        if (scene_.hasMotion) time = gather(batch_.slots.time, select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u)));
-        store(p.time, time);
+        if (scene_.hasMotion)
+            store(p.time, gather(batch_.slots.time, select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u))));
         store(p.far, far);
-        store(p.mask, UInt<F>(0xFFFFFFFFu));
-        store(p.id, UInt<F>(0u));
-        store(p.flags, UInt<F>(0u));
     }
 
     std::uint32_t missKey() const { return scene_.materials.size(); }
@@ -382,20 +387,15 @@ private:
         const std::uint32_t materials = missKey();
         const bool fine = materials < kMostBuckets;
         const std::uint32_t buckets = (fine ? materials : MaterialTable::kTags) + 1;
-        const auto bucket = [&](int i) {
-            const std::uint32_t key = batch_.key[i];
-            return fine ? key : key == materials ? buckets - 1 : scene_.materials.tag(key);
-        };
         int place[kMostBuckets + 1];
         std::fill_n(place, buckets, 0);
-        for (int i = 0; i < batch_.live; ++i) ++place[bucket(i)];
-        int sum = 0;
-        for (std::uint32_t b = 0; b < buckets; ++b) {
-            const int n = place[b];
-            place[b] = sum;
-            sum += n;
-        }
-        for (int i = 0; i < batch_.live; ++i) batch_.order[place[bucket(i)]++] = std::uint16_t(i);
+        if (fine)
+            countingSort(place, buckets, [&](int i) { return batch_.key[i]; });
+        else
+            countingSort(place, buckets, [&](int i) {
+                const std::uint32_t key = batch_.key[i];
+                return key == materials ? buckets - 1 : scene_.materials.tag(key);
+            });
         // Each place is now the end of its bucket.
         for (unsigned tag = 0; tag < MaterialTable::kTags; ++tag) {
             const std::uint32_t last = fine ? scene_.materials.firstId(tag + 1) : tag + 1;
@@ -403,11 +403,27 @@ private:
         }
     }
 
+    /// Fills `order`; `place`, all zeros, becomes the end of each bucket there.
+    template <class BucketOf>
+    void countingSort(int place[], std::uint32_t buckets, const BucketOf& bucketOf) {
+        const int live = batch_.live;
+        for (int i = 0; i < live; ++i) ++place[bucketOf(i)];
+        int sum = 0;
+        for (std::uint32_t b = 0; b < buckets; ++b) {
+            const int n = place[b];
+            place[b] = sum;
+            sum += n;
+        }
+        for (int i = 0; i < live; ++i) batch_.order[place[bucketOf(i)]++] = std::uint16_t(i);
+    }
+
     /// Hands the finished paths to the film.
     void end() {
         const SlotBuffer& s = batch_.slots;
         const FilmSettings& settings = scene_.film;
-        const bool plain = settings.isIdentity();
+        const bool plain = settings.isIdentity(), inRuns = film_.replicates() == 1;
+        static_assert(kMaxBatch <= PixelRun::kMost);
+        PixelRun run;
         for (int i = 0; i < pathCount_; ++i) {
             Spectrum<float> value{s.r[i], s.g[i], s.b[i]}, lost = Spectrum<float>::constant(0.f);
             if (!plain) {
@@ -418,8 +434,16 @@ private:
                 value = value * -1.f;
                 lost = lost * -1.f;
             }
-            if (!film_.add(s.pixel[i], s.sample[i], value, s.sign[i], s.covered[i] != 0)) counts_.addInvalid({s.pixel[i], s.sample[i]});
-            else if (!isBlack(lost)) counts_.clamped.add(lost);
+            const bool covered = s.covered[i] != 0;
+            if (!(inRuns && run.add(value, s.sign[i], covered)) && !film_.add(s.pixel[i], s.sample[i], value, s.sign[i], covered))
+                counts_.addInvalid({s.pixel[i], s.sample[i]});
+            else if (!isBlack(lost))
+                counts_.clamped.add(lost);
+            // Samples of a pixel are neighbours.
+            if (inRuns && (i + 1 == pathCount_ || s.pixel[i + 1] != s.pixel[i])) {
+                film_.add(s.pixel[i], run);
+                run = {};
+            }
         }
     }
     static Spectrum<float> toSensor(const FilmSettings& f, const Spectrum<float>& c) {

@@ -40,6 +40,35 @@ TEST(Film, OrderChangesNoBit) {
     EXPECT_NEAR(first.estimate(0).mean[0], double(exact / 5000), std::fabs(double(exact)) * 1e-14);
 }
 
+/// Runs of samples leave the very bits that samples one by one leave, up to the largest run of the largest values.
+TEST(Film, RunsChangeNoBit) {
+    Film each({0, 0, 1, 1}, 1, 1), runs({0, 0, 1, 1}, 1, 1);
+    const float largest = std::nextafter(0x1p5f, 0.f);
+    PixelRun run;
+    int inRun = 0;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        const auto value = [&](std::uint32_t c) {
+            const float u = unitFloat<float>(mixBits(4 * i + c));
+            const float v = i < 5000 ? largest : i < 6000 ? 0x1p-17f : u < 0.1f ? 0.f : std::exp2(8.f * u);
+            return mixBits(4 * i + c) & 1 && i >= 5000 ? -v : v;
+        };
+        const Spectrum<float> v{value(0), value(1) / 0x1p7f, i >= 6000 ? value(2) / 0x1p12f : value(2)};
+        const float sign = i % 5 ? 1.f : -1.f;
+        each.add(0, i, v, sign, i % 3 == 0);
+        if (run.add(v, sign, i % 3 == 0)) ++inRun;
+        else runs.add(0, i, v, sign, i % 3 == 0);
+        if (i % PixelRun::kMost == PixelRun::kMost - 1 || i == 19999) {
+            runs.add(0, run);
+            run = {};
+        }
+    }
+    EXPECT_GT(inRun, 6000);
+    EXPECT_LT(inRun, 19000);
+    EXPECT_TRUE(each == runs);
+    for (const float v : {NAN, INFINITY, -0x1p5f, 0x1p-18f, 1e-40f})
+        EXPECT_FALSE(run.add({0, v, 0}, 1, true)) << v;
+}
+
 TEST(Film, StandardErrorOfIndependentSamples) {
     Film film({0, 0, 1, 1}, 1, 1);
     for (float v : {1.f, 2.f, 3.f, 4.f}) film.add(0, 0, {v, 0, 7}, 1.f, v > 2);
