@@ -39,14 +39,7 @@ public:
                               2, 6, 7, 3, 2, 7, 0, 4, 6, 2, 0, 6, 5, 1, 3, 5, 3, 7});
     }
     Small& quadric(ShapeKind kind, const Matrix4& world) {
-        QuadricRecord q;
-        Matrix4 object;
-        invert(world, object);
-        q.worldFromObject = toRecord(world);
-        q.objectFromWorld = toRecord(object);
-        q.kind = kind;
-        if (kind == ShapeKind::Disk) q.zMin = q.zMax = 0;
-        geometry.shapes.push_back(geometry.addQuadric(q));
+        geometry.shapes.push_back(geometry.addQuadric(wholeQuadric(kind, world)));
         return *this;
     }
     Small& finish() {

@@ -255,6 +255,18 @@ private:
     const Geometry& g_;
 };
 
+/// A unit sphere, disk (at height 0) or cylinder, of which nothing is cut off. REQUIRES: world is not singular.
+inline QuadricRecord wholeQuadric(ShapeKind kind, const Matrix4& world) {
+    QuadricRecord q;
+    Matrix4 object;
+    invert(world, object);
+    q.worldFromObject = toRecord(world);
+    q.objectFromWorld = toRecord(object);
+    q.kind = kind;
+    if (kind == ShapeKind::Disk) q.zMin = q.zMax = 0;
+    return q;
+}
+
 /// Meshes flat and smooth with and without uv and tangents, partial spheres, cylinders and disks, as they are,
 /// mirrored, in instances and in moving instances; about five units across.
 class EverythingScene {
@@ -314,12 +326,7 @@ private:
         geometry.shapes.push_back(r);
     }
     void addQuadric(ShapeKind kind, const Matrix4& world, std::uint32_t flags) {
-        QuadricRecord q;
-        Matrix4 object;
-        invert(world, object);
-        q.worldFromObject = toRecord(world);
-        q.objectFromWorld = toRecord(object);
-        q.kind = kind;
+        QuadricRecord q = wholeQuadric(kind, world);
         q.phiMax = 5;
         if (kind == ShapeKind::Disk) {
             q.innerRadius = 0.3f;
