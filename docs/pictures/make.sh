@@ -17,7 +17,7 @@ picture() {
 }
 
 picture materials materials --spp 256
-for scene in absorption coats cornell cutouts dof environment highlights lens mappings measured mixes motion multiscatter panorama procedural relief rough_glass spectra textures lights lamps portal screens; do
+for scene in absorption coats cornell cutouts dof environment hair highlights lens mappings measured mixes motion multiscatter panorama procedural relief rough_glass spectra textures lights lamps portal screens; do
     picture $scene $scene --spp 256
 done
 picture shapes shapes --spp 256

@@ -313,6 +313,28 @@ def flower(count=700):
     return (HEADER + "\n".join(lines) + "\n").encode()
 
 
+def lock(strands=48, points=10):
+    """A lock of hair that hangs from the origin: strands about a common line that winds down."""
+    chance = random.Random(7)
+    lines = []
+    for _ in range(strands):
+        angle, r = chance.uniform(0, 2 * math.pi), math.sqrt(chance.random())
+        length, lag, stray = chance.uniform(0.9, 1.04), chance.gauss(0, 0.25), chance.gauss(0, 0.03)
+        numbers = []
+        for k in range(points):
+            along = (k - 1) / (points - 3)     # a B-spline begins near its second point
+            s = max(along, 0)
+            turn, wave = 2 * math.pi * 1.75 * s + lag, 0.075 * s ** 0.8
+            near = 0.15 * r * (1 - 0.45 * s)   # to the line
+            numbers.append("%.3f %.3f %.3f" % (
+                near * math.cos(angle) + wave * math.cos(turn) + stray * s * math.cos(3 * angle),
+                near * math.sin(angle) + wave * math.sin(turn) + stray * s * math.sin(5 * angle),
+                -1.95 * length * along))
+        lines.append('Shape "curve" "string basis" "bspline" "float width0" 0.016 "float width1" 0.006\n'
+                     '    "point3 P" [ %s ]' % "  ".join(numbers))
+    return (HEADER + "\n".join(lines) + "\n").encode()
+
+
 def mesh(points, triangles, indent="    "):
     numbers = "  ".join("%.5g %.5g %.5g" % tuple(p) for p in points)
     corners = "  ".join("%d %d %d" % t for t in triangles)
@@ -443,6 +465,7 @@ def main():
     write("studs.png", studs())
     write("leaf.png", leaf())
     write("flower.pbrt", flower())
+    write("lock.pbrt", lock())
     write("star.pbrt", star())
     write("tribar.pbrt", tribar())
     write("pearl.bsdf", pearl())
