@@ -95,6 +95,25 @@ ShadingContext<F> shadingContext(const Scene& scene, const SurfacePoint<F>& at, 
     return {scene.textures, scene.materials.tableData(), {at.uv, coneWidth * at.uvPerLength, at.p, at.ng, coneWidth}};
 }
 
+/// Where a path begins on the film, on the lens and in time.
+template <class F>
+struct CameraNumbers {
+    Vec2<F> raster, lens;
+    F shutter;
+    F sign;  ///< of the filter
+};
+
+/// `x`, `y`: the pixel's corner.
+template <class F>
+CameraNumbers<F> cameraNumbers(const Scene& scene, F x, F y, const SampleAddress<F>& address) {
+    const auto numbers = scene.sampler.at<F>(address, 0);
+    const FilterSample<F> f = scene.filter.sample(numbers.get2(Dim::Filter));
+    CameraNumbers<F> c{{x + F(0.5f) + f.offset.x, y + F(0.5f) + f.offset.y}, {F(0.5f), F(0.5f)}, F(0.5f), f.sign};
+    if (scene.camera.usesLens()) c.lens = numbers.get2(Dim::Lens);
+    if (scene.hasMotion) c.shutter = numbers.get1(Dim::Time);
+    return c;
+}
+
 /// Of the ray's cone at the hit.
 template <class F>
 F coneWidthAt(const Scene& scene, const RayGroup<F>& g, const Hit<F>& hit) {
@@ -204,18 +223,12 @@ private:
         const F x = load<F>(s.rasterX + at), y = load<F>(s.rasterY + at);
         const UInt<F> pixel = toUInt(y) * UInt<F>(std::uint32_t(scene_.film.width)) + toUInt(x);
         const SampleAddress<F> a = addressOf<F>(pixel, load<F>(s.sample + at), std::uint32_t(film_.replicates()), scene_.seed);
-        const auto numbers = scene_.sampler.at<F>(a, 0);
-        const FilterSample<F> f = scene_.filter.sample(numbers.get2(Dim::Filter));
-        const Vec2<F> raster = {x + F(0.5f) + f.offset.x, y + F(0.5f) + f.offset.y};
-        Vec2<F> lens = {F(0.5f), F(0.5f)};
-        if (scene_.camera.usesLens()) lens = numbers.get2(Dim::Lens);
-        F shutter = F(0.5f);
-        if (scene_.hasMotion) shutter = numbers.get1(Dim::Time);
-        const CameraRay<F> ray = scene_.camera.ray(raster, lens, shutter);
+        const CameraNumbers<F> numbers = cameraNumbers(scene_, x, y, a);
+        const CameraRay<F> ray = scene_.camera.ray(numbers.raster, numbers.lens, numbers.shutter);
         store(s.seed + at, a.seed);
         store(s.index + at, a.index);
         store(s.time + at, ray.time);
-        store(s.sign + at, f.sign);
+        store(s.sign + at, numbers.sign);
         for (float* v : {s.r + at, s.g + at, s.b + at}) store(v, F(0.f));
         // What the camera keeps out is black, and not empty.
         const Mask<F> dark = !(ray.weight > F(0.f));

@@ -7,6 +7,9 @@
 namespace penumbra {
 namespace {
 
+/// What a film can add up; beyond it a surface is seen along itself.
+constexpr float kMostChange = 1e9f;
+
 /// The channels of all AOVs, in lanes.
 template <class F>
 struct AovLanes {
@@ -30,6 +33,36 @@ Spectrum<F> albedoAt(const Scene& scene, const RayGroup<F>& g, const Hit<F>& hit
     });
 }
 
+/// Along the camera's axis, or the distance where it has none; `p` in camera space.
+template <class F>
+F depthOf(const Scene& scene, const Vec3<F>& p) {
+    return scene.camera.looksAllRound() ? length(p) : p.z;
+}
+
+/// How much the depth changes across a pixel, to the right and downwards, without its sign: between the camera's rays
+/// half a pixel to either side, where they meet the tangent plane. Where one of them does not, the hit stands for it.
+template <class F>
+Vec2<F> depthAcrossPixel(const Scene& scene, const SlotBuffer& slots, const RayGroup<F>& g, const SurfacePoint<F>& at,
+                         const CameraSpace<F>& space) {
+    const CameraNumbers<F> numbers =
+        cameraNumbers(scene, gather(slots.rasterX, g.slot), gather(slots.rasterY, g.slot), g.address);
+    const F middle = depthOf(scene, space.point(at.p));
+    const auto across = [&](float dx, float dy) {
+        F change(0.f), sides(0.f);
+        for (const float side : {-1.f, 1.f}) {
+            const Vec2<F> raster{numbers.raster.x + F(side * dx), numbers.raster.y + F(side * dy)};
+            const CameraRay<F> ray = scene.camera.ray(raster, numbers.lens, numbers.shutter);
+            const F t = dot(at.p - ray.origin, at.ng) / dot(ray.direction, at.ng);
+            const F depth = depthOf(scene, space.point(ray.origin + ray.direction * t));
+            const Mask<F> meets = (ray.weight > F(0.f)) & (t > F(0.f)) & (abs(depth - middle) < F(kMostChange));
+            change = change + select(meets, (depth - middle) * F(side), F(0.f));
+            sides = sides + select(meets, F(0.5f), F(0.f));
+        }
+        return abs(change) / max(sides, F(0.5f));
+    };
+    return {across(0.5f, 0.f), across(0.f, 0.5f)};
+}
+
 template <class F>
 Vec3<F> towardsViewer(const Vec3<F>& n, const Vec3<F>& direction) {
     return flipSign(dot(n, direction) > F(0.f), n);
@@ -48,7 +81,12 @@ void recordFirstSurface(const Scene& scene, const SlotBuffer& slots, const RayGr
 
     AovLanes<F> lanes{};
     Vec3<F> n = towardsViewer(at.ng, g.direction), ns = towardsViewer(at.frame.n, g.direction), p = camera.point(at.p);
-    lanes.put(Aov::Depth, scene.camera.looksAllRound() ? length(p) : p.z);
+    lanes.put(Aov::Depth, depthOf(scene, p));
+    if (film.aovs().set().has(Aov::DepthAlongX) || film.aovs().set().has(Aov::DepthAlongY)) {
+        const Vec2<F> change = depthAcrossPixel(scene, slots, g, at, camera);
+        lanes.put(Aov::DepthAlongX, change.x);
+        lanes.put(Aov::DepthAlongY, change.y);
+    }
     if (scene.film.aovsInCameraSpace) {
         n = camera.normal(n);
         ns = camera.normal(ns);

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 namespace penumbra {
 namespace {
 
@@ -82,8 +84,46 @@ TEST(Aovs, WhereNothingIsMetThereIsNoPlace) {
     const Pixel sky(*job, 0, 7);
     for (const Aov aov : {Aov::Albedo, Aov::Normal, Aov::ShadingNormal})
         expectNear(sky.triple(aov), {0, 0, 0}, 0);
-    for (const Aov aov : {Aov::Position, Aov::Depth, Aov::Uv, Aov::Time})
+    for (const Aov aov :
+         {Aov::Position, Aov::Depth, Aov::DepthAlongX, Aov::DepthAlongY, Aov::Uv, Aov::Time})
         EXPECT_TRUE(std::isnan(sky.value(aov)));
+}
+
+/// The plane z = 5 + x / 2 - y / 4 before a camera at the origin, seen in 32 x 16 pixels.
+std::unique_ptr<RenderJob> slope(const std::string& camera, const std::string& look = "") {
+    return renderText(look + camera + centres(32, 16) + R"(WorldBegin
+LightSource "infinite" "rgb L" [ 1 1 1 ]
+Shape "trianglemesh" "point3 P" [ -8 -8 3  8 -8 11  8 8 7  -8 8 -1 ] "integer indices" [ 0 1 2 0 2 3 ]
+)",
+                      withAovs());
+}
+
+TEST(Aovs, DepthChangesAsTheSlopeSays) {
+    // A pixel is 4 / 16 units to the side.
+    const auto flat = slope("Camera \"orthographic\" \"float screenwindow\" [ -4 4 -2 2 ]\n");
+    const auto deep = slope("Camera \"perspective\" \"float fov\" 40\n");
+    const double tangent = std::tan(std::numbers::pi / 9), k = 2 * tangent / 16;  // of a pixel, at depth 1
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x) {
+            EXPECT_NEAR(Pixel(*flat, x, y).value(Aov::DepthAlongX), 0.5 * 0.25, 1e-5);
+            EXPECT_NEAR(Pixel(*flat, x, y).value(Aov::DepthAlongY), 0.25 * 0.25, 1e-5);
+            // z = 5 / (1 - a / 2 + b / 4) in the direction (a, b, 1).
+            const double a = (x + 0.5 - 16) * k, b = (8 - y - 0.5) * k;
+            const auto depth = [&](double da, double db) { return 5 / (1 - (a + da) / 2 + (b + db) / 4); };
+            EXPECT_NEAR(Pixel(*deep, x, y).value(Aov::DepthAlongX), depth(k / 2, 0) - depth(-k / 2, 0), 1e-4);
+            EXPECT_NEAR(Pixel(*deep, x, y).value(Aov::DepthAlongY), depth(0, -k / 2) - depth(0, k / 2), 1e-4);
+        }
+    // However the camera stands: a wall at a right angle to its axis has no slope, nor has a sphere around it.
+    const auto aside = renderText("LookAt 3 2 -4  3 2 5  1 1 0\nCamera \"perspective\" \"float fov\" 20\n" +
+                                      centres(4, 4) + "WorldBegin\n" + kWall,
+                                  withAovs());
+    EXPECT_NEAR(Pixel(*aside, 1, 1).value(Aov::DepthAlongX), 0, 1e-4);
+    EXPECT_NEAR(Pixel(*aside, 1, 1).value(Aov::DepthAlongY), 0, 1e-4);
+    const auto around = renderText("Camera \"spherical\"\n" + centres(16, 16) +
+                                       "WorldBegin\nLightSource \"infinite\"\nShape \"sphere\" \"float radius\" 3\n",
+                                   withAovs());
+    for (int x = 0; x < 16; ++x)
+        EXPECT_NEAR(Pixel(*around, x, 5).value(Aov::DepthAlongX), 0, 0.15);
 }
 
 /// The wall's edge goes through the middle of the pixels.
@@ -228,7 +268,7 @@ TEST(Aovs, TheFilmGbufferKeepsThem) {
         EXPECT_EQ(warnings.all().size(), 1u);
         return job;
     };
-    EXPECT_EQ(aovNames(render("")->scene().film.aovs), (std::vector<std::string>{"albedo", "N", "Ns", "P", "uv"}));
+    EXPECT_EQ(aovNames(render("")->scene().film.aovs), (std::vector<std::string>{"albedo", "N", "Ns", "P", "dzdx", "dzdy", "uv"}));
     const auto camera = render("", withAovs()), world = render("\"string coordinatesystem\" \"world\"", withAovs());
     const Pixel c(*camera, 1, 1), w(*world, 1, 1);
     expectNear(w.triple(Aov::Normal), {0, 0, -1}, 1e-6);
@@ -277,7 +317,7 @@ TEST_P(AovScenes, ChangeNoBitOfThePictureAndCostNothingWhereNobodyAsks) {
     const auto with = render(withAovs()), without = render({});
     const std::size_t pixels = without->film().pixelCount();
     EXPECT_EQ(without->film().memoryBytes(), pixels * (sizeof(PixelSums) + sizeof(PixelSquares)));
-    EXPECT_EQ(with->film().memoryBytes(), without->film().memoryBytes() + pixels * (16 * sizeof(ExactSum) + 4));
+    EXPECT_EQ(with->film().memoryBytes(), without->film().memoryBytes() + pixels * (kAovChannels * sizeof(ExactSum) + 4));
     EXPECT_EQ(with->counts().rays, without->counts().rays);
     for (std::size_t i = 0; i < pixels; ++i) {
         const PixelEstimate a = with->film().estimate(i), b = without->film().estimate(i);
@@ -330,10 +370,10 @@ TEST_F(AovCommand, WritesTheChannelsThatAreAskedFor) {
     EXPECT_EQ(names,
               (std::vector<std::string>{"A", "B", "G", "R", "SE.B", "SE.G", "SE.R", "Z", "samples", "uv.U", "uv.V"}));
     ASSERT_EQ(run("b.exr", {"--aov", "all", "-t", "1"}).code, 0);
-    ASSERT_EQ(run("c.exr", {"--aov", "albedo,N,Ns,P,Z,uv,time", "--lanes", "1"}).code, 0);
+    ASSERT_EQ(run("c.exr", {"--aov", "albedo,N,Ns,P,Z,dzdx,dzdy,uv,time", "--lanes", "1"}).code, 0);
     const ExrFile all = readExr(folder.path("b.exr"));
     for (const char* name : {"albedo.R", "albedo.G", "albedo.B", "N.X", "N.Y", "N.Z", "Ns.X", "Ns.Y", "Ns.Z", "P.X",
-                             "P.Y", "P.Z", "Z", "uv.U", "uv.V", "time"})
+                             "P.Y", "P.Z", "Z", "dzdx", "dzdy", "uv.U", "uv.V", "time"})
         EXPECT_TRUE(all.find(name)) << name;
     EXPECT_EQ(readBytes(folder.path("b.exr")), readBytes(folder.path("c.exr")));
     EXPECT_TRUE(contains(readBytes(folder.path("a.exr")), " --aov Z,uv\""));

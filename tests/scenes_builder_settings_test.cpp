@@ -113,8 +113,8 @@ TEST(BuildFilm, ColoursAreInItsSpace) {
 TEST(BuildFilm, OtherTypesCountAsRgb) {
     EXPECT_TRUE(settings("Film \"spectral\" \"integer nbuckets\" 8").warnsOf("the film 'spectral' is not there yet"));
     const auto gbuffer = settings("Film \"gbuffer\" \"string coordinatesystem\" \"world\"");
-    EXPECT_TRUE(gbuffer.warnsOf("dzdx and dzdy are not there yet"));
-    EXPECT_EQ(aovNames(gbuffer.scene.film.aovs), (std::vector<std::string>{"albedo", "N", "Ns", "P", "uv"}));
+    EXPECT_TRUE(gbuffer.warnsOf("SE stands for Variance"));
+    EXPECT_EQ(aovNames(gbuffer.scene.film.aovs), (std::vector<std::string>{"albedo", "N", "Ns", "P", "dzdx", "dzdy", "uv"}));
     EXPECT_FALSE(gbuffer.scene.film.aovsInCameraSpace);
     EXPECT_TRUE(settings("Film \"gbuffer\"").scene.film.aovsInCameraSpace);
 }

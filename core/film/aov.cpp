@@ -11,8 +11,9 @@ using Mean = AovKind::Mean;
 constexpr AovKind kKinds[] = {
     {Aov::Albedo, "albedo", "RGB", Mean::OfAll, 0},      {Aov::Normal, "N", "XYZ", Mean::Direction, 3},
     {Aov::ShadingNormal, "Ns", "XYZ", Mean::Direction, 6}, {Aov::Position, "P", "XYZ", Mean::OfHits, 9},
-    {Aov::Depth, "Z", "", Mean::OfHits, 12},             {Aov::Uv, "uv", "UV", Mean::OfHits, 13},
-    {Aov::Time, "time", "", Mean::OfHits, 15},
+    {Aov::Depth, "Z", "", Mean::OfHits, 12},             {Aov::DepthAlongX, "dzdx", "", Mean::OfHits, 13},
+    {Aov::DepthAlongY, "dzdy", "", Mean::OfHits, 14},    {Aov::Uv, "uv", "UV", Mean::OfHits, 15},
+    {Aov::Time, "time", "", Mean::OfHits, 17},
 };
 static_assert(std::rbegin(kKinds)->first + 1 == kAovChannels);
 
@@ -22,6 +23,8 @@ constexpr PluginInfo kPlugins[] = {
     {"Ns", "shading normal, towards the viewer; 0 where nothing was met", {}},
     {"P", "place in the world; NaN where nothing was met", {}},
     {"Z", "depth along the camera's axis (all round: distance); NaN where nothing was met", {}},
+    {"dzdx", "change of Z across a pixel, left to right, without its sign; NaN where nothing was met", {}},
+    {"dzdy", "change of Z across a pixel, top to bottom, without its sign; NaN where nothing was met", {}},
     {"uv", "surface parameters; NaN where nothing was met", {}},
     {"time", "when it was seen, from 0 (start) to 1 (end of the motion); NaN where nothing was met", {}},
 };

@@ -21,7 +21,7 @@
 
 namespace penumbra {
 
-enum class Aov : std::uint8_t { Albedo, Normal, ShadingNormal, Position, Depth, Uv, Time };
+enum class Aov : std::uint8_t { Albedo, Normal, ShadingNormal, Position, Depth, DepthAlongX, DepthAlongY, Uv, Time };
 
 /// One kind of them: where its channels stand in AovValues, and how they are called ("N.X"; no suffixes: by the name alone).
 struct AovKind {
@@ -38,7 +38,7 @@ std::span<const AovKind> aovKinds();
 std::span<const PluginInfo> aovPlugins();
 
 /// What one sample saw: every channel of every kind, in the order of aovKinds().
-inline constexpr std::size_t kAovChannels = 16;
+inline constexpr std::size_t kAovChannels = 18;
 using AovValues = std::array<float, kAovChannels>;
 
 /// Some of the kinds.

@@ -99,17 +99,18 @@ void checkSize(Resolution r, const CropWindow& crop, const AovSet& aovs, SourceP
                     double(kMostFilmBytes)));
 }
 
-/// What the film of that name keeps beside the picture: pbrt's gbuffer what of it we have, in the space that it asks for.
+/// What the film of that name keeps beside the picture, in the space that it asks for.
 void readGbuffer(const FilmEntity& film, FilmSettings& settings, BuildContext& context) {
     static const std::vector<std::string> known{"camera", "world"};
     const std::string space = film.parameters.text("coordinatesystem", "camera");
     if (std::find(known.begin(), known.end(), space) == known.end())
         context.fail(film.where, "unknown coordinatesystem " + quote(space) + suggestion(space, known));
     settings.aovsInCameraSpace = space == "camera";
-    for (const Aov aov : {Aov::Albedo, Aov::Normal, Aov::ShadingNormal, Aov::Position, Aov::Uv})
+    for (const Aov aov : {Aov::Albedo, Aov::Normal, Aov::ShadingNormal, Aov::Position, Aov::DepthAlongX,
+                          Aov::DepthAlongY, Aov::Uv})
         settings.aovs.add(aov);
-    context.warn(film.where, "the film 'gbuffer' keeps albedo, N, Ns, P and uv, under these names; dzdx and dzdy are not there "
-                             "yet, and SE stands for Variance");
+    context.warn(film.where, "the film 'gbuffer' keeps albedo, N, Ns, P, dzdx, dzdy and uv, under these names, and SE "
+                             "stands for Variance");
 }
 
 void readType(const FilmEntity& film, FilmSettings& settings, BuildContext& context) {
