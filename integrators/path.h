@@ -199,11 +199,20 @@ private:
         absorb(scene, mediumOf(at, g, light.wi), select(infinite, F(0.f), light.distance), value);
         wanted = wanted & !isBlack(value);
         wanted = wanted & playShadowRoulette(numbers, gathered, value);
+        const Vec3<F> origin = offsetOrigin(at.p, at.error, at.ng, light.wi);
+        const Mask<F> through = wanted & !infinite & crosses(at, g, light.wi);
+        if (any(through)) {
+            // The ray leaves from the other side of the surface than the one from which the light was sampled.
+            const Vec3<F> path = from + light.wi * light.distance - origin;
+            const F distance = length(path);
+            light.wi = select(through, path * (F(1.f) / max(distance, F(1e-30f))), light.wi);
+            light.distance = select(through, distance, light.distance);
+        }
         // The light's own surface must not shadow its points: stop short by what rounding may have moved them.
         const F slack = light.distance * F(0x1p-16f) + maxComponent(abs(at.p)) * F(0x1p-20f);
         const F far = select(infinite, light.distance, light.distance - slack);
         wanted = wanted & (far > F(0.f));
-        step.shadow(g, offsetOrigin(at.p, at.error, at.ng, light.wi), light.wi, far, value, wanted);
+        step.shadow(g, origin, light.wi, far, value, wanted);
     }
 
     /// The brightest channel of what each path has gathered, relative to the picture's typical radiance.

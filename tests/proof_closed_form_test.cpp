@@ -72,6 +72,7 @@ TEST(ClosedFormScenes, ValuesMatchIndependentOnes) {
     };
     near("A2", value.at("A2 eight bounces"), 0.998046875);
     near("A6", value.at("A6"), 3.813559322);
+    near("A7", value.at("A7"), 0.2970297030);
     near("B1", irradiance(value.at("B1")), 0.7853981634);
     near("B2", irradiance(value.at("B2")), 0.1745329252);
     near("B3", irradiance(value.at("B3")), 0.09058607371);
@@ -99,6 +100,9 @@ TEST(ClosedFormScenes, ValuesMatchIndependentOnes) {
     near("F9", value.at("F9"), 0.5963457597);
     near("F10", value.at("F10"), 0.6328334076);
     near("F11", value.at("F11"), 0.9233716475);
+    EXPECT_NEAR(value.at("B9 triangle"), .0965678, 1e-7);
+    EXPECT_NEAR(value.at("B9 sinking triangle"), .0446276, 1e-7);
+    EXPECT_NEAR(value.at("B9 sinking rectangle"), .0869994, 1e-7);
     EXPECT_NEAR(value.at("F13 0"), .3043, 5e-5);
     EXPECT_NEAR(value.at("F13 75"), .4581, 5e-5);
 }

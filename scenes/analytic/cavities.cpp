@@ -149,6 +149,34 @@ void addIntegratingSpheres(std::vector<AnalyticScene>& scenes) {
          .samplesPerPixel = 256});
 }
 
+/// A lamp in a sphere, off its centre: what the wall scatters lights all of it alike, whatever it gets from the lamp.
+void addLampOffCentre(std::vector<AnalyticScene>& scenes) {
+    const double rho = .5, offset = .5;
+    for (const int side : {-1, 1}) {
+        const double distance = 1 + side * offset;
+        const std::string camera = orthographicView({0, 0, 0}, {0, 0, double(side)}, {0, 1, 0}, 1e-3);
+        const std::string lamp = fmt::format("LightSource \"point\" \"rgb I\" {} \"point3 from\" [ 0 0 {} ]\n",
+                                             spectrumOf(kPi), -offset);
+        scenes.push_back({.id = side < 0 ? "A5 near" : "A5 far",
+                          .claim = "wall of a Lambert sphere, point light I = pi at the distance d, off its centre: "
+                                   "I rho / (pi d^2) + I rho^2 / (pi (1 - rho))",
+                          .text = sceneText({.camera = camera, .maxDepth = 60}, lamp + diffuse(rho) + kSphereInside),
+                          .expected = grey(rho / (distance * distance) + rho * rho / (1 - rho))});
+    }
+}
+
+/// A shining ball in the middle of a hollow one: of what leaves the wall the part (r / R)^2 meets the ball.
+void addConcentricSpheres(std::vector<AnalyticScene>& scenes) {
+    const double wall = .6, ball = .3, part = .25;
+    const std::string camera = "LookAt 0 0 .75  1 0 .75  0 0 1\nCamera \"perspective\" \"float fov\" [ 30 ]\n";
+    const std::string world =
+        scoped(diffuse(wall) + kSphereInside) + wallsThatEmit(diffuse(ball), 1, sphere(.5));
+    scenes.push_back({.id = "A7",
+                      .claim = "wall around a ball that emits 1 and reflects, radii 1 and .5",
+                      .text = sceneText({.camera = camera, .maxDepth = 60}, world),
+                      .expected = grey(wall * part / (1 - wall * (1 - part) - ball * wall * part))});
+}
+
 /// Non-absorbing glass in a furnace cannot be seen at all.
 void addInvisibleGlass(std::vector<AnalyticScene>& scenes) {
     const std::string glass = constantSky(1) + "Material \"dielectric\" \"float eta\" [ 1.5 ]\n" + sphere(1);
@@ -195,6 +223,8 @@ std::vector<AnalyticScene> analyticCavities() {
     addFurnacesAtScales(scenes);
     addOpenFurnaces(scenes);
     addIntegratingSpheres(scenes);
+    addLampOffCentre(scenes);
+    addConcentricSpheres(scenes);
     addInvisibleGlass(scenes);
     addWhiteCurves(scenes);
     return scenes;

@@ -46,6 +46,47 @@ double underCorner(double a, double b) {  // parallel rectangle a x b at height 
     return .5 * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
 }
 
+/// The irradiance at the origin of that part of a convex polygon of radiance 1 that is above z = 0 (Lambert 1760).
+double underPolygon(const std::vector<Point>& corners) {
+    const auto dot = [](const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; };
+    std::vector<Point> above;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Point &a = corners[i], &b = corners[(i + 1) % corners.size()];
+        if (a.z >= 0) above.push_back(a);
+        const double t = a.z / (a.z - b.z);
+        if ((a.z < 0) != (b.z < 0)) above.push_back({a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), 0});
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+        const Point &a = above[i], &b = above[(i + 1) % above.size()];
+        const Point normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+        sum += std::acos(dot(a, b) / std::sqrt(dot(a, a) * dot(b, b))) * normal.z / std::sqrt(dot(normal, normal));
+    }
+    return std::abs(sum) / 2;
+}
+
+void addPolygons(std::vector<AnalyticScene>& scenes) {
+    const auto add = [&](const std::string& id, const std::string& claim, const std::vector<Point>& corners) {
+        std::string points;
+        for (const Point& p : corners)
+            points += fmt::format(" {} {} {}", p.x, p.y, p.z);
+        const std::string shape =
+            fmt::format("Shape \"trianglemesh\" \"point3 P\" [{} ] \"integer indices\" [ 0 1 2{} ]\n", points,
+                        corners.size() == 4 ? " 0 2 3" : "");
+        const AnalyticScene scene =
+            point(id, claim, emitter(1, shape, "\"bool twosided\" true"), underPolygon(corners));
+        scenes.push_back(scene);
+        scenes.push_back(with(AnalyticScene::Strategy::LightSampling, scene));
+        scenes.push_back(with(AnalyticScene::Strategy::ScatteringOnly, scene));
+        scenes.back().samplesPerPixel = 512;
+    };
+    add("B9 triangle", "a slanted triangle light, by Lambert's formula", {{-.5, -.3, 1}, {1.2, -.2, 1.6}, {.2, 1, .8}});
+    add("B9 sinking triangle", "a triangle light, one corner of it above the receiver's horizon",
+        {{1, -1, -.5}, {1.2, 1, -.4}, {.8, .1, 1.5}});
+    add("B9 sinking rectangle", "a slanted rectangle light, cut by the receiver's horizon",
+        {{1, -1, -.5}, {1, 1, -.5}, {.7, 1, 1}, {.7, -1, 1}});
+}
+
 void addSpheres(std::vector<AnalyticScene>& scenes) {
     const AnalyticScene above = point("B1", "sphere light of radius 1 at distance 2 along the normal: E = pi (r/d)^2",
                                       emitter(1, sphere(1, {0, 0, 2})), kPi / 4);
@@ -480,6 +521,7 @@ std::vector<AnalyticScene> analyticEmitters() {
     addDisks(scenes);
     addCylinders(scenes);
     addRectangles(scenes);
+    addPolygons(scenes);
     addPicture(scenes);
     addManyLights(scenes);
     addSky(scenes);

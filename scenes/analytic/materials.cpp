@@ -144,6 +144,45 @@ void addBoundaries(std::vector<AnalyticScene>& scenes) {
     }
 }
 
+/// Two mirrors face to face, and a lamp at the end: every reflection takes its part.
+void addFacingMirrors(std::vector<AnalyticScene>& scenes) {
+    const std::string metal = "Material \"conductor\" \"rgb eta\" [ .2 .2 .2 ] \"rgb k\" [ 3 3 3 ]\n";
+    const std::string camera = orthographicView({0, 0, .5}, {1, 0, 1.5}, {0, 1, 0}, 1e-2);
+    scenes.push_back(
+        exactly({.id = "F7",
+                 .claim = "a lamp of radiance 1 seen by five reflections at 45 degrees between two mirrors",
+                 .text = sceneText({.camera = camera, .maxDepth = 5},
+                                   metal + rectangleZ(-10, 10, -10, 10, 0, Facing::Positive) +
+                                       rectangleZ(-10, 10, -10, 10, 1, Facing::Negative) +
+                                       emitter(1, rectangleX(-1, 1, 0, 1, 5, Facing::Negative))),
+                 .expected = grey(std::pow(fresnel(std::sqrt(.5), {.2, 3}), 5)),
+                 .roulette = false}));
+}
+
+/// Sheets without thickness.
+void addSheets(std::vector<AnalyticScene>& scenes) {
+    const std::string floor = scoped(black() + rectangleZ(-50, 50, -50, 50, -.5, Facing::Positive));
+    const double r = fresnel(.5, kIor);
+    scenes.push_back(underSky("F5", "reflectance of a thin pane at 60 degrees, all interreflections: 2 R / (1 + R)",
+                              floor + fmt::format("Material \"thindielectric\" \"float eta\" [ {} ]\n", kIor), .5,
+                              2 * r / (1 + r), 3));
+    scenes.back().samplesPerPixel = 1024;
+    // Below the sheet a lamp so near that nothing else is to be seen from there. (The sheet is much larger than that
+    // distance, so rays leave it where rounding has a say.)
+    const std::string lamp = emitter(2, rectangleZ(-100, 100, -100, 100, -.1, Facing::Positive));
+    AnalyticScene paper = underSky("F6", "paper between a sky of radiance 1 and a lamp of radiance 2: rho + 2 tau",
+                                   lamp + "Material \"diffusetransmission\" \"rgb reflectance\" [ .2 .2 .2 ] "
+                                          "\"rgb transmittance\" [ .7 .7 .7 ]\n",
+                                   1, .2 + 2 * .7);
+    scenes.push_back(paper);
+    paper.id = "F6 light sampling";
+    paper.strategy = AnalyticScene::Strategy::LightSampling;
+    scenes.push_back(paper);
+    paper.id = "F6 scattering only";
+    paper.strategy = AnalyticScene::Strategy::ScatteringOnly;
+    scenes.push_back(paper);
+}
+
 /// Schlick's approximation, from outside and, at the angle inside that belongs to it, from inside.
 void addSchlickBoundaries(std::vector<AnalyticScene>& scenes) {
     const std::string floor = scoped(black() + rectangleZ(-50, 50, -50, 50, -.5, Facing::Positive));
@@ -358,6 +397,8 @@ std::vector<AnalyticScene> analyticMaterials() {
     addConductors(scenes);
     addMicrofacets(scenes);
     addBoundaries(scenes);
+    addFacingMirrors(scenes);
+    addSheets(scenes);
     addSchlickBoundaries(scenes);
     addSlabs(scenes);
     addDiffuseFresnel(scenes);
