@@ -1,6 +1,6 @@
 #include "core/geometry/patches.h"
 
-#include "core/math/vector.h"
+#include "core/math/double_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -9,29 +9,24 @@
 namespace penumbra {
 namespace {
 
-using Point = Vec3<double>;
-
 /// What one vertex of a face carries.
 struct Corner {
-    Point p{}, n{};
+    Vec3d p{}, n{};
     double u = 0, v = 0;
 };
 
-double lengthOf(const Point& v) {
-    return std::sqrt(dot(v, v));
-}
-Point twistOf(const Point& p00, const Point& p10, const Point& p01, const Point& p11) {
+Vec3d twistOf(const Vec3d& p00, const Vec3d& p10, const Vec3d& p01, const Vec3d& p11) {
     return (p00 - p10) + (p11 - p01);
 }
 
 struct Patch {
     Corner p00, p10, p01, p11;
 
-    Point twist() const { return twistOf(p00.p, p10.p, p01.p, p11.p); }
+    Vec3d twist() const { return twistOf(p00.p, p10.p, p01.p, p11.p); }
     /// dp/du x dp/dv.
-    Point normal(double u, double v) const {
-        const Point du = (p10.p - p00.p) * (1 - v) + (p11.p - p01.p) * v;
-        const Point dv = (p01.p - p00.p) * (1 - u) + (p11.p - p10.p) * u;
+    Vec3d normal(double u, double v) const {
+        const Vec3d du = (p10.p - p00.p) * (1 - v) + (p11.p - p01.p) * v;
+        const Vec3d dv = (p01.p - p00.p) * (1 - u) + (p11.p - p10.p) * u;
         return cross(du, dv);
     }
 };
@@ -59,7 +54,7 @@ public:
     Corner corner(std::uint32_t vertex) const {
         const auto three = [&](const std::vector<float>& table) {
             const float* const v = &table[3 * std::size_t{vertex}];
-            return Point{v[0], v[1], v[2]};
+            return Vec3d{v[0], v[1], v[2]};
         };
         Corner c;
         c.p = three(mesh_.positions);
@@ -100,9 +95,9 @@ public:
     /// How many cells along an edge keep to the tolerance.
     int cells(const Patch& q) const {
         const bool isFlat = this->isFlat(q);
-        if (options_.polygons) return isFlat ? 1 : cellsOf(lengthOf(placed(q.twist())), meshSize_, kPolygonTolerance);
-        const double turn = lengthOf(twistOf(q.p00.n, q.p10.n, q.p01.n, q.p11.n));
-        const double longest = std::max({lengthOf(q.p00.n), lengthOf(q.p10.n), lengthOf(q.p01.n), lengthOf(q.p11.n)});
+        if (options_.polygons) return isFlat ? 1 : cellsOf(length(placed(q.twist())), meshSize_, kPolygonTolerance);
+        const double turn = length(twistOf(q.p00.n, q.p10.n, q.p01.n, q.p11.n));
+        const double longest = std::max({length(q.p00.n), length(q.p10.n), length(q.p01.n), length(q.p11.n)});
         int most = cellsOf(turn, longest);
         if (hasUvs_)
             most = std::max(most, cellsOf(std::hypot(q.p00.u - q.p10.u - q.p01.u + q.p11.u,
@@ -111,7 +106,7 @@ public:
         // Two triangles are the whole of a convex polygon, if nobody asks how u and v go across it.
         const bool asksForParameters = options_.needsUv || (hasNormals_ && !haveOneNormal(q));
         if (isFlat && !asksForParameters && isConvex(q)) return most;
-        return std::max(most, cellsOf(lengthOf(placed(q.twist())), longestEdge(q)));
+        return std::max(most, cellsOf(length(placed(q.twist())), longestEdge(q)));
     }
 
 private:
@@ -119,23 +114,20 @@ private:
         const double n = std::ceil(std::sqrt(twist / (4 * tolerance * size)));
         return n > 1 ? int(std::min(n, double(kMostCells))) : 1;  // also where it is no number
     }
-    Point placed(const Point& v) const {
-        const Vec3d w = transformVector(options_.place, {v.x, v.y, v.z});
-        return {w.x, w.y, w.z};
-    }
+    Vec3d placed(const Vec3d& v) const { return transformVector(options_.place, v); }
 
     double diagonal(const MeshBounds& box) const {
         double squared = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double extent = double(box.upper[axis]) - box.lower[axis];
-            const Point side = placed({axis == 0 ? extent : 0, axis == 1 ? extent : 0, axis == 2 ? extent : 0});
+            const Vec3d side = placed({axis == 0 ? extent : 0, axis == 1 ? extent : 0, axis == 2 ? extent : 0});
             squared += dot(side, side);
         }
         return std::sqrt(squared);
     }
     double longestEdge(const Patch& q) const {
-        return std::max({lengthOf(placed(q.p10.p - q.p00.p)), lengthOf(placed(q.p11.p - q.p01.p)),
-                         lengthOf(placed(q.p01.p - q.p00.p)), lengthOf(placed(q.p11.p - q.p10.p))});
+        return std::max({length(placed(q.p10.p - q.p00.p)), length(placed(q.p11.p - q.p01.p)),
+                         length(placed(q.p01.p - q.p00.p)), length(placed(q.p11.p - q.p10.p))});
     }
     static double longestUvEdge(const Patch& q) {
         const auto edge = [](const Corner& a, const Corner& b) { return std::hypot(b.u - a.u, b.v - a.v); };
@@ -143,12 +135,12 @@ private:
     }
     /// How far the twist leads out of the plane along both diagonals. Parallel diagonals lie in one plane.
     double bend(const Patch& q) const {
-        const Point n = cross(placed(q.p11.p - q.p00.p), placed(q.p01.p - q.p10.p));
-        const double length = lengthOf(n);
-        return length > 0 ? std::abs(dot(placed(q.twist()), n)) / length : 0;
+        const Vec3d n = cross(placed(q.p11.p - q.p00.p), placed(q.p01.p - q.p10.p));
+        const double size = length(n);
+        return size > 0 ? std::abs(dot(placed(q.twist()), n)) / size : 0;
     }
     static bool haveOneNormal(const Patch& q) {
-        const auto same = [](const Point& a, const Point& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+        const auto same = [](const Vec3d& a, const Vec3d& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
         return same(q.p00.n, q.p10.n) && same(q.p00.n, q.p01.n) && same(q.p00.n, q.p11.n);
     }
     /// Of a planar patch: either diagonal cuts it into two triangles that face one way.
@@ -183,8 +175,8 @@ public:
         mesh_.faceIndices.reserve(cells);
     }
     void addPatch(const Patch& q, std::int32_t face) {
-        const double largest = std::max({lengthOf(q.normal(0, 0)), lengthOf(q.normal(1, 0)), lengthOf(q.normal(0, 1)),
-                                         lengthOf(q.normal(1, 1))});
+        const double largest = std::max({length(q.normal(0, 0)), length(q.normal(1, 0)), length(q.normal(0, 1)),
+                                         length(q.normal(1, 1))});
         const std::uint32_t first = nextVertex();
         for (int j = 0; j <= n_; ++j)
             for (int i = 0; i <= n_; ++i) {
@@ -202,13 +194,13 @@ public:
             }
     }
     void addTriangle(const std::array<Corner, 3>& c, std::int32_t face) {
-        const Point normal = cross(c[1].p - c[0].p, c[2].p - c[0].p);
+        const Vec3d normal = cross(c[1].p - c[0].p, c[2].p - c[0].p);
         const std::uint32_t first = nextVertex();
         for (int j = 0; j <= n_; ++j)
             for (int i = 0; i + j <= n_; ++i) {
                 // n times what would do, so that vertices on an edge are rounded as those of a patch.
                 Corner vertex = mean<3>(c, {double(n_ * (n_ - i - j)), double(n_ * i), double(n_ * j)});
-                if (ownNormals_) vertex.n = scaled(normal, lengthOf(normal));
+                if (ownNormals_) vertex.n = scaled(normal, length(normal));
                 addVertex(vertex);
             }
         const auto at = [&](int i, int j) { return first + std::uint32_t(j * (n_ + 1) - j * (j - 1) / 2 + i); };
@@ -239,7 +231,7 @@ private:
                 sum.u / total,
                 sum.v / total};
     }
-    static Point scaled(const Point& v, double length) { return length > 0 ? v * (1 / length) : Point{}; }
+    static Vec3d scaled(const Vec3d& v, double size) { return size > 0 ? v * (1 / size) : Vec3d{}; }
 
     void addVertex(const Corner& c) {
         mesh_.positions.insert(mesh_.positions.end(), {float(c.p.x), float(c.p.y), float(c.p.z)});
