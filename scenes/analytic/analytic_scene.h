@@ -38,6 +38,9 @@ struct AnalyticScene {
     bool exact = false;
 };
 
+/// Appends the scene as it is, and once for each strategy alone; `scatteringSamples` a pixel where light is not sampled.
+void addInAllStrategies(std::vector<AnalyticScene>& scenes, AnalyticScene scene, int scatteringSamples);
+
 /// All of them, in the order cavities, emitters, cameras, materials, masks.
 std::vector<AnalyticScene> analyticScenes();
 

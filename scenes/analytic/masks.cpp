@@ -55,31 +55,17 @@ void addSheets(std::vector<AnalyticScene>& scenes) {
                               withAlpha(.7, disk(9, {0, 0, .5}, Facing::Positive)),
                           .7 * .9999));   // the format's largest reflectance
     // The irradiance of B4 (pi / 2) behind the sheets, by shadow rays, by scattered rays, and by both.
-    AnalyticScene shadows = mask("alpha 2", "disk light of radius 1 at height 1 behind the sheets: E = .54 pi / 2", viewOfOrigin(),
-                                 sheets() + diffuse(.5) + floorSquare(.1) + emitter(1, disk(1, {0, 0, 1}, Facing::Negative)),
-                                 .5 * kThroughSheets / 2);
-    scenes.push_back(shadows);
-    shadows.id = "alpha 2 light sampling";
-    shadows.strategy = AnalyticScene::Strategy::LightSampling;
-    scenes.push_back(shadows);
-    shadows.id = "alpha 2 scattering only";
-    shadows.strategy = AnalyticScene::Strategy::ScatteringOnly;
-    shadows.samplesPerPixel = 1024;
-    scenes.push_back(shadows);
+    addInAllStrategies(scenes,
+                       mask("alpha 2", "disk light of radius 1 at height 1 behind the sheets: E = .54 pi / 2", viewOfOrigin(),
+                            sheets() + diffuse(.5) + floorSquare(.1) + emitter(1, disk(1, {0, 0, 1}, Facing::Negative)),
+                            .5 * kThroughSheets / 2),
+                       1024);
 }
 
 /// The scene under each strategy and under both.
 void addLight(std::vector<AnalyticScene>& scenes, const std::string& id, const std::string& claim, const std::string& light,
               double irradiance) {
-    AnalyticScene s = mask(id, claim, viewOfOrigin(), diffuse(.5) + floorSquare(.1) + light, .5 * irradiance / kPi);
-    scenes.push_back(s);
-    s.id = id + " light sampling";
-    s.strategy = AnalyticScene::Strategy::LightSampling;
-    scenes.push_back(s);
-    s.id = id + " scattering only";
-    s.strategy = AnalyticScene::Strategy::ScatteringOnly;
-    s.samplesPerPixel = 1024;
-    scenes.push_back(s);
+    addInAllStrategies(scenes, mask(id, claim, viewOfOrigin(), diffuse(.5) + floorSquare(.1) + light, .5 * irradiance / kPi), 1024);
 }
 
 void addLights(std::vector<AnalyticScene>& scenes) {

@@ -170,17 +170,12 @@ void addSheets(std::vector<AnalyticScene>& scenes) {
     // Below the sheet a lamp so near that nothing else is to be seen from there. (The sheet is much larger than that
     // distance, so rays leave it where rounding has a say.)
     const std::string lamp = emitter(2, rectangleZ(-100, 100, -100, 100, -.1, Facing::Positive));
-    AnalyticScene paper = underSky("F6", "paper between a sky of radiance 1 and a lamp of radiance 2: rho + 2 tau",
-                                   lamp + "Material \"diffusetransmission\" \"rgb reflectance\" [ .2 .2 .2 ] "
-                                          "\"rgb transmittance\" [ .7 .7 .7 ]\n",
-                                   1, .2 + 2 * .7);
-    scenes.push_back(paper);
-    paper.id = "F6 light sampling";
-    paper.strategy = AnalyticScene::Strategy::LightSampling;
-    scenes.push_back(paper);
-    paper.id = "F6 scattering only";
-    paper.strategy = AnalyticScene::Strategy::ScatteringOnly;
-    scenes.push_back(paper);
+    const AnalyticScene paper =
+        underSky("F6", "paper between a sky of radiance 1 and a lamp of radiance 2: rho + 2 tau",
+                 lamp + "Material \"diffusetransmission\" \"rgb reflectance\" [ .2 .2 .2 ] "
+                        "\"rgb transmittance\" [ .7 .7 .7 ]\n",
+                 1, .2 + 2 * .7);
+    addInAllStrategies(scenes, paper, paper.samplesPerPixel);
 }
 
 /// Schlick's approximation, from outside and, at the angle inside that belongs to it, from inside.
