@@ -26,7 +26,7 @@ public:
         step.shadow(g, offsetOrigin(at.p, at.error, at.ng, direction), direction, F(maxDistance_), g.throughput * weight, g.live);
     }
     template <class F>
-    void miss(Step<F>&, const RayGroup<F>&) const noexcept {}
+    void miss(Step<F>&, RayGroup<F>&) const noexcept {}
 
 private:
     float maxDistance_;

@@ -9,7 +9,7 @@
 //
 // A Shader is the integrator's part, generic over lanes:
 //   template <class F, class M> void shade(Step<F>&, RayGroup<F>&, const Hit<F>&, const UInt<F>& material) const noexcept;
-//   template <class F> void miss(Step<F>&, const RayGroup<F>&) const noexcept;
+//   template <class F> void miss(Step<F>&, RayGroup<F>&) const noexcept;
 #pragma once
 
 #include "core/geometry/surface_point.h"
@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <xmmintrin.h>
 
 namespace penumbra {
@@ -51,7 +52,7 @@ Mask<F> isFinite(const Spectrum<F>& throughput) {
 /// Makes invalid samples of the paths of the chosen lanes.
 template <class F>
 void breakPaths(SlotBuffer& slots, const UInt<F>& slot, unsigned lanes) {
-    for (; lanes; lanes &= lanes - 1) slots.r[lane(slot, std::countr_zero(lanes))] = std::numeric_limits<float>::quiet_NaN();
+    for (; lanes; lanes &= lanes - 1) slots.rows[lane(slot, std::countr_zero(lanes))][0] = std::numeric_limits<float>::quiet_NaN();
 }
 
 /// What a shader works with: the scene, the batch and where its results go. Rays that are not sound never reach Embree:
@@ -63,7 +64,8 @@ struct Step {
     std::uint32_t vertex;       ///< of the hit; the camera is vertex 0
     int nextCount;              ///< rays packed so far
 
-    void add(const RayGroup<F>& g, const Spectrum<F>& value) { addToSlot(batch.slots, g.slot, value); }
+    /// What the paths gather. Before shadow() and go() of the same group, which may make their samples invalid.
+    void add(RayGroup<F>& g, const Spectrum<F>& value) { g.addToSlots(batch.slots, value); }
     void shadow(const RayGroup<F>& g, const Vec3<F>& origin, const Vec3<F>& direction, F far, const Spectrum<F>& value,
                 const Mask<F>& wanted) {
         const Mask<F> asked = wanted & g.live, sound = isSound(origin, direction);
@@ -145,8 +147,8 @@ namespace detail {
 template <class F>
 void gatherGroup(RayGroup<F>& g, const PathBatch& batch, const RayBuffer& r, const UInt<F>& at, int liveCount, bool hasMotion) {
     g.load(r, at);
-    g.time = hasMotion ? gather(batch.slots.time, g.slot) : F(0.f);
-    g.address = {gather(batch.slots.seed, g.slot), gather(batch.slots.index, g.slot)};
+    g.loadSlots(batch.slots);
+    if (!hasMotion) g.time = F(0.f);
     g.live = firstLanes<F>(liveCount);
 }
 
@@ -187,6 +189,8 @@ public:
 
 private:
     static constexpr int W = kLanes<F>;
+    /// A mesh with no more indices stays in the caches by itself.
+    static constexpr std::size_t kNearIndices = std::size_t(1) << 17;
     /// Live lanes of the group that begins at i of a run that ends at `end`.
     static int groupSize(int i, int end) { return end - i < W ? end - i : W; }
 
@@ -198,15 +202,15 @@ private:
         const std::uint64_t firstPixel = first / perPixel;
         std::uint32_t sample = std::uint32_t(first % perPixel);
         int x = tile.x0 + int(firstPixel % tileWidth), y = tile.y0 + int(firstPixel / tileWidth);
-        for (int i = 0; i < count; ++i) {
-            s.pixel[i] = std::uint32_t(y) * filmWidth + std::uint32_t(x);
-            s.sample[i] = samples.begin + sample;
-            s.rasterX[i] = float(x + film_.crop().x0);
-            s.rasterY[i] = float(y + film_.crop().y0);
-            if (++sample == perPixel) {
-                sample = 0;
-                if (++x == tile.x1) x = tile.x0, ++y;
-            }
+        for (int i = 0; i < count;) {
+            const int ofPixel = std::min(int(perPixel - sample), count - i);
+            std::fill_n(s.pixel + i, ofPixel, std::uint32_t(y) * filmWidth + std::uint32_t(x));
+            std::iota(s.sample + i, s.sample + i + ofPixel, samples.begin + sample);
+            std::fill_n(s.rasterX + i, ofPixel, float(x + film_.crop().x0));
+            std::fill_n(s.rasterY + i, ofPixel, float(y + film_.crop().y0));
+            i += ofPixel;
+            sample = 0;
+            if (++x == tile.x1) x = tile.x0, ++y;
         }
         batch_.live = 0;
         for (int i = 0; i < count; i += W) cameraRays(i, groupSize(i, count));
@@ -225,11 +229,9 @@ private:
         const SampleAddress<F> a = addressOf<F>(pixel, load<F>(s.sample + at), std::uint32_t(film_.replicates()), scene_.seed);
         const CameraNumbers<F> numbers = cameraNumbers(scene_, x, y, a);
         const CameraRay<F> ray = scene_.camera.ray(numbers.raster, numbers.lens, numbers.shutter);
-        store(s.seed + at, a.seed);
-        store(s.index + at, a.index);
-        store(s.time + at, ray.time);
+        const F zero(0.f), row[8] = {zero, zero, zero, zero, floatFromBits(a.seed), floatFromBits(a.index), ray.time, zero};
+        storeRows8(s.rows[at], SlotBuffer::kStride, row, (1u << W) - 1u);
         store(s.sign + at, numbers.sign);
-        for (float* v : {s.r + at, s.g + at, s.b + at}) store(v, F(0.f));
         // What the camera keeps out is black, and not empty.
         const Mask<F> dark = !(ray.weight > F(0.f));
         store(s.covered + at, select(dark, UInt<F>(1u), UInt<F>(0u)));
@@ -310,16 +312,27 @@ private:
 
             const UInt<F> geometry = load<F>(p.hit.geometry), instance = load<F>(p.hit.instance);
             const Mask<F> met = geometry != UInt<F>(kNoHit);
-            UInt<F> shape(0u), key(missKey());
+            UInt<F> key(missKey());
             if (any(met)) {
-                shape = shapeOf<F>(scene_.geometry, select(met, geometry, UInt<F>(0u)), select(met, instance, UInt<F>(kNone)));
-                key = select(met, Records<F, ShapeRecord>(scene_.geometry.shapes.data(), shape)(&ShapeRecord::material), key);
+                const UInt<F> shape = shapeOf<F>(scene_.geometry, select(met, geometry, UInt<F>(0u)),
+                                                 select(met, instance, UInt<F>(kNone)));
+                const Records<F, ShapeRecord> shapes(scene_.geometry.shapes.data(), shape);
+                key = select(met, shapes(&ShapeRecord::material), key);
+                const UInt<F> primitive = load<F>(p.hit.primitive);
+                if (readsAhead_) prefetchTriangles(shapes(&ShapeRecord::first) + primitive, bits(met) & live);
+                const F hit[8] = {floatFromBits(shape), floatFromBits(primitive), floatFromBits(instance),
+                                  load<F>(p.hit.u), load<F>(p.hit.v), load<F>(p.ray.far), F(0.f), F(0.f)};
+                storeRows8(batch_.hits.rows[i], HitBuffer::kStride, hit, live);
             }
             store(batch_.key + i, key);   // decides the order of shading
-            const F hit[8] = {floatFromBits(shape), load<F>(reinterpret_cast<const float*>(p.hit.primitive)), floatFromBits(instance),
-                              load<F>(p.hit.u), load<F>(p.hit.v), load<F>(p.ray.far), F(0.f), F(0.f)};
-            storeRows8(batch_.hits.rows[i], HitBuffer::kStride, hit, live);
         }
+    }
+
+    /// Asks for the indices of the triangles that were met: shading comes to them when the batch is traced. In vain where
+    /// it was no mesh.
+    void prefetchTriangles(const UInt<F>& triangle, unsigned lanes) const {
+        const UInt<F> row = triangle * UInt<F>(3u);
+        for (; lanes; lanes &= lanes - 1) prefetch(scene_.geometry.indices.data(), lane(row, std::countr_zero(lanes)));
     }
 
     /// Replaces the keys of mixes by those of what is met there; `order` is free until the sort.
@@ -363,9 +376,9 @@ private:
             for (unsigned open = bits(Mask<F>(load<F>(p.far) >= F(0.f))) & live; open; open &= open - 1) {
                 const int k = i + std::countr_zero(open);
                 const std::uint32_t to = floatBits(s.rows[k][7]);
-                slots.r[to] += s.r[k];
-                slots.g[to] += s.g[k];
-                slots.b[to] += s.b[k];
+                slots.rows[to][0] += s.r[k];
+                slots.rows[to][1] += s.g[k];
+                slots.rows[to][2] += s.b[k];
             }
         }
     }
@@ -386,23 +399,26 @@ private:
         store(p.directionX, row[4]);
         store(p.directionY, row[5]);
         store(p.directionZ, row[6]);
-        if (scene_.hasMotion)
-            store(p.time, gather(batch_.slots.time, select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u))));
+        if (scene_.hasMotion) {
+            const UInt<F> slot = select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u));
+            store(p.time, gather(batch_.slots.rows[0] + 6, slot * UInt<F>(SlotBuffer::kStride)));
+        }
         store(p.far, far);
     }
 
     std::uint32_t missKey() const { return scene_.materials.size(); }
 
-    /// Orders the rays by the material they met, misses last: a counting sort, stable, so the order is a function of the batch
-    /// alone. Where a scene has very many materials, by kind only.
+    /// Orders the rays by the material they met, misses last. Stable, so the order is a function of the batch alone. Where a
+    /// scene has very many materials, by kind only.
     void sortByMaterial() {
-        constexpr std::uint32_t kMostBuckets = 1024;
+        constexpr std::uint32_t kFewBuckets = 8, kMostBuckets = 1024;
         const std::uint32_t materials = missKey();
         const bool fine = materials < kMostBuckets;
         const std::uint32_t buckets = (fine ? materials : MaterialTable::kTags) + 1;
         int place[kMostBuckets + 1];
-        std::fill_n(place, buckets, 0);
-        if (fine)
+        if (buckets <= kFewBuckets)
+            pickBuckets(place, buckets);
+        else if (fine)
             countingSort(place, buckets, [&](int i) { return batch_.key[i]; });
         else
             countingSort(place, buckets, [&](int i) {
@@ -416,10 +432,25 @@ private:
         }
     }
 
-    /// Fills `order`; `place`, all zeros, becomes the end of each bucket there.
+    /// Fills `order`; `place` becomes the end of each bucket there. Each key has its bucket, which picks its rays, eight at
+    /// a time: no look-up and no store waits for the one before, so few buckets are faster filled than by counting.
+    void pickBuckets(int place[], std::uint32_t buckets) {
+        int n = 0;
+        for (std::uint32_t b = 0; b < buckets; ++b) {
+            for (int i = 0; i < batch_.live; i += W) {
+                const unsigned mine = bits(load<F>(batch_.key + i) == UInt<F>(b)) & ((1u << groupSize(i, batch_.live)) - 1u);
+                storePackedIndices(batch_.order + n, UInt<F>(std::uint32_t(i)) + laneIndices<F>(), mine);
+                n += std::popcount(mine);
+            }
+            place[b] = n;
+        }
+    }
+
+    /// The same by a counting sort, for any number of buckets.
     template <class BucketOf>
     void countingSort(int place[], std::uint32_t buckets, const BucketOf& bucketOf) {
         const int live = batch_.live;
+        std::fill_n(place, buckets, 0);
         for (int i = 0; i < live; ++i) ++place[bucketOf(i)];
         int sum = 0;
         for (std::uint32_t b = 0; b < buckets; ++b) {
@@ -433,31 +464,49 @@ private:
     /// Hands the finished paths to the film.
     void end() {
         const SlotBuffer& s = batch_.slots;
-        const FilmSettings& settings = scene_.film;
-        const bool plain = settings.isIdentity(), inRuns = film_.replicates() == 1;
+        const bool plain = scene_.film.isIdentity(), inRuns = film_.replicates() == 1;
         static_assert(kMaxBatch <= PixelRun::kMost);
         PixelRun run;
-        for (int i = 0; i < pathCount_; ++i) {
-            Spectrum<float> value{s.r[i], s.g[i], s.b[i]}, lost = Spectrum<float>::constant(0.f);
-            if (!plain) {
-                value = toSensor(settings, value);
-                lost = limitSample(value, settings.maxComponent);
+        for (int i = 0; i < pathCount_;) {
+            if (plain && inRuns && addGroup(run, i)) {
+                i += W;
+            } else {
+                addOne(run, i, plain, inRuns);
+                ++i;
             }
-            if (s.sign[i] < 0.f) {
-                value = value * -1.f;
-                lost = lost * -1.f;
-            }
-            const bool covered = s.covered[i] != 0;
-            if (!(inRuns && run.add(value, s.sign[i], covered)) && !film_.add(s.pixel[i], s.sample[i], value, s.sign[i], covered))
-                counts_.addInvalid({s.pixel[i], s.sample[i]});
-            else if (!isBlack(lost))
-                counts_.clamped.add(lost);
             // Samples of a pixel are neighbours.
-            if (inRuns && (i + 1 == pathCount_ || s.pixel[i + 1] != s.pixel[i])) {
-                film_.add(s.pixel[i], run);
+            if (inRuns && (i == pathCount_ || s.pixel[i] != s.pixel[i - 1])) {
+                film_.add(s.pixel[i - 1], run);
                 run = {};
             }
         }
+    }
+    /// The paths i .. i + W, where they are of one pixel and of everyday size; else false, and nothing is done.
+    bool addGroup(PixelRun& run, int i) const {
+        const SlotBuffer& s = batch_.slots;
+        if (W == 1 || i + W > pathCount_ || s.pixel[i + W - 1] != s.pixel[i]) return false;
+        const F sign = load<F>(s.sign + i);
+        F row[4];
+        loadRows4(s.rows[i], laneIndices<F>() * UInt<F>(SlotBuffer::kStride), row);
+        const Spectrum<F> value{row[0] * sign, row[1] * sign, row[2] * sign};
+        return run.add(value, sign, load<F>(s.covered + i) != UInt<F>(0u));
+    }
+    void addOne(PixelRun& run, int i, bool plain, bool inRuns) {
+        const SlotBuffer& s = batch_.slots;
+        Spectrum<float> value{s.rows[i][0], s.rows[i][1], s.rows[i][2]}, lost = Spectrum<float>::constant(0.f);
+        if (!plain) {
+            value = toSensor(scene_.film, value);
+            lost = limitSample(value, scene_.film.maxComponent);
+        }
+        if (s.sign[i] < 0.f) {
+            value = value * -1.f;
+            lost = lost * -1.f;
+        }
+        const bool covered = s.covered[i] != 0;
+        if (!(inRuns && run.add(value, s.sign[i], covered)) && !film_.add(s.pixel[i], s.sample[i], value, s.sign[i], covered))
+            counts_.addInvalid({s.pixel[i], s.sample[i]});
+        else if (!isBlack(lost))
+            counts_.clamped.add(lost);
     }
     static Spectrum<float> toSensor(const FilmSettings& f, const Spectrum<float>& c) {
         const auto& m = f.sensorFromFilm;
@@ -470,6 +519,7 @@ private:
     Film& film_;
     RenderCounts& counts_;
     PathBatch& batch_;
+    const bool readsAhead_ = scene_.geometry.indices.size() > kNearIndices;
     int pathCount_ = 0;
     int runEnd_[MaterialTable::kTags];   ///< in `order`: end of the rays that met each kind of material
 };

@@ -12,13 +12,13 @@ public:
     explicit NormalsShader(const IntegratorSettings&) {}
 
     template <class F, class M>
-    void shade(Step<F>& step, const RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
+    void shade(Step<F>& step, RayGroup<F>& g, const Hit<F>& hit, const UInt<F>& material) const noexcept {
         const SurfacePoint<F> at = shadedPoint<F, M>(step.scene, g, hit, material);
         const Vec3<F> n = flipSign(dot(at.frame.n, g.direction) > F(0.f), at.frame.n) * F(0.5f);
         step.add(g, {n.x + F(0.5f), n.y + F(0.5f), n.z + F(0.5f)});
     }
     template <class F>
-    void miss(Step<F>&, const RayGroup<F>&) const noexcept {}
+    void miss(Step<F>&, RayGroup<F>&) const noexcept {}
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ public:
     }
 
     template <class F>
-    void miss(Step<F>& step, const RayGroup<F>& g) const noexcept {
+    void miss(Step<F>& step, RayGroup<F>& g) const noexcept {
         const LightHit<F> away{g.origin, {}, g.direction};
         for (std::uint32_t id : step.scene.lights.infiniteIds()) {
             const LightEval<F> e = evaluateLight<F>(step.scene.lights, UInt<F>(id), away);
@@ -117,7 +117,7 @@ private:
     static constexpr std::uint32_t kMostPassThroughs = 10000;
 
     template <class F>
-    void emission(Step<F>& step, const RayGroup<F>& g, const SurfacePoint<F>& at) const {
+    void emission(Step<F>& step, RayGroup<F>& g, const SurfacePoint<F>& at) const {
         const UInt<F> first = at.shape.light;
         const Mask<F> emits = first != UInt<F>(kNone);
         if (none(emits)) return;
@@ -141,7 +141,7 @@ private:
 
         // At the first vertex there is nothing yet but emission.
         F gathered(0.f);
-        if (roulette_ == RouletteRule::Late && step.vertex > 1) gathered = brightness<F>(step.batch.slots, g.slot);
+        if (roulette_ == RouletteRule::Late && step.vertex > 1) gathered = brightness(g.gathered);
         if (!scene.lightSampler.empty()) {
             const Mask<F> lit = goesOn & !bsdf.smoothOnly();
             if (any(lit)) sampleLights(step, g, at, bsdf, wo, numbers, gathered, lit);
@@ -215,10 +215,9 @@ private:
         step.shadow(g, origin, light.wi, far, value, wanted);
     }
 
-    /// The brightest channel of what each path has gathered, relative to the picture's typical radiance.
+    /// The brightest channel of L, what each path has gathered, relative to the picture's typical radiance.
     template <class F>
-    F brightness(const SlotBuffer& slots, const UInt<F>& slot) const {
-        const Spectrum<F> L{gather(slots.r, slot), gather(slots.g, slot), gather(slots.b, slot)};
+    F brightness(const Spectrum<F>& L) const {
         return max(maxComponent(L) * F(perTypical_), F(0.f));
     }
 

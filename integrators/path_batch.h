@@ -36,11 +36,11 @@ struct ShadowBuffer {
 };
 
 struct SlotBuffer {
-    alignas(64) float r[kBatchCapacity], g[kBatchCapacity], b[kBatchCapacity];   ///< radiance gathered
-    alignas(64) float time[kBatchCapacity];
+    static constexpr std::uint32_t kStride = 8;
+    /// radiance gathered (3), -, SampleAddress (2), time, -
+    alignas(64) float rows[kBatchCapacity][kStride];
     alignas(64) float rasterX[kBatchCapacity], rasterY[kBatchCapacity];          ///< the pixel's corner
     alignas(64) float sign[kBatchCapacity];                                      ///< of the filter
-    alignas(64) std::uint32_t seed[kBatchCapacity], index[kBatchCapacity];       ///< SampleAddress
     alignas(64) std::uint32_t pixel[kBatchCapacity], sample[kBatchCapacity];     ///< of the film
     alignas(64) std::uint32_t covered[kBatchCapacity];                           ///< 1: the camera ray met something
     alignas(64) std::uint32_t normal[kBatchCapacity];                            ///< packed, of the last scattering; where lights are picked by place
@@ -103,17 +103,25 @@ struct PathRay {
 /// What a step knows of eight rays (or one) that met materials of one kind.
 template <class F>
 struct RayGroup : PathRay<F> {
+    Spectrum<F> gathered;       ///< by the paths so far, as their slots have it
     F time;
     SampleAddress<F> address;
     Mask<F> live;               ///< the other lanes are copies of a live one
-};
 
-/// L of the slots += value. Spare lanes copy a live lane's value and so write what it writes.
-template <class F>
-void addToSlot(SlotBuffer& s, const UInt<F>& slot, const Spectrum<F>& value) {
-    scatter(s.r, slot, gather(s.r, slot) + value.r);
-    scatter(s.g, slot, gather(s.g, slot) + value.g);
-    scatter(s.b, slot, gather(s.b, slot) + value.b);
-}
+    /// REQUIRES: `slot` is known.
+    void loadSlots(const SlotBuffer& s) {
+        F row[8];
+        loadRows8(s.rows[0], this->slot * UInt<F>(SlotBuffer::kStride), row);
+        gathered = {row[0], row[1], row[2]};
+        address = {floatBits(row[4]), floatBits(row[5])};
+        time = row[6];
+    }
+    /// Here and in the slots. Spare lanes copy a live lane's value and so write what it writes.
+    void addToSlots(SlotBuffer& s, const Spectrum<F>& value) {
+        gathered += value;
+        const F row[4] = {gathered.r, gathered.g, gathered.b, F(0.f)};
+        scatterRows4(s.rows[0], this->slot * UInt<F>(SlotBuffer::kStride), row);
+    }
+};
 
 }  // namespace penumbra

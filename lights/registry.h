@@ -104,6 +104,11 @@ namespace detail {
 /// Calls f.operator()<T>(Records<F, T>) for every type T in the group and gathers the results lane by lane.
 template <class F, class Result, class Function>
 Result forEachLightType(const LightTable& lights, const UInt<F>& id, Function&& f) {
+    const std::uint32_t firstId = lane(id, 0);
+    if (all(id == UInt<F>(firstId)))
+        return dispatch(LightTypes{}, lights.tag(firstId), [&]<class T>() {
+            return f.template operator()<T>(Records<F, T>::ofRow(lights.rows<T>().data(), lights.row(firstId)));
+        });
     const UInt<F> place = gather(lights.places(), id);
     const UInt<F> tag = place >> int(LightTable::kRowBits), row = place & UInt<F>((1u << LightTable::kRowBits) - 1u);
     const auto ofTag = [&](std::uint32_t wanted, const UInt<F>& rows) {

@@ -40,6 +40,43 @@ TEST(Film, OrderChangesNoBit) {
     EXPECT_NEAR(first.estimate(0).mean[0], double(exact / 5000), std::fabs(double(exact)) * 1e-14);
 }
 
+/// Eight at a time or one by one: the same bits, or none of the eight.
+TEST(Film, GroupsInRunsChangeNoBit) {
+    Film each({0, 0, 1, 1}, 1, 1), groups({0, 0, 1, 1}, 1, 1);
+    PixelRun run, single;
+    for (std::uint32_t i = 0; i < PixelRun::kMost / 8; ++i) {
+        Spectrum<Lanes8f> value;
+        Lanes8f sign;
+        const unsigned hit = mixBits(i) & 0xFFu;
+        for (int k = 0; k < 8; ++k) {
+            const auto v = [&](std::uint32_t c) {
+                const std::uint32_t bits = mixBits(3 * (8 * i + std::uint32_t(k)) + c);
+                const float u = unitFloat<float>(mixBits(bits));
+                return (bits & 1 ? -1.f : 1.f) * (i % 3 == 0 ? std::nextafter(0x1p5f, 0.f) : std::exp2(21.9f * u - 17.f));
+            };
+            const Spectrum<float> one{v(0), v(1), v(2)};
+            setLane(value.r, k, one.r);
+            setLane(value.g, k, one.g);
+            setLane(value.b, k, one.b);
+            setLane(sign, k, k % 3 ? 1.f : -1.f);
+            ASSERT_TRUE(single.add(one, k % 3 ? 1.f : -1.f, hit >> k & 1u));
+        }
+        Mask8 met(false);
+        for (int k = 0; k < 8; ++k)
+            if (hit >> k & 1u) met = met | (laneIndices<Lanes8f>() == Lanes8u(std::uint32_t(k)));
+        ASSERT_TRUE(run.add(value, sign, met));
+        for (const float v : {NAN, INFINITY, -0x1p5f, 0x1p-18f, 1e-40f}) {
+            Spectrum<Lanes8f> bad = value;
+            setLane(bad.g, int(i % 8), v);
+            ASSERT_FALSE(run.add(bad, sign, met)) << v;
+        }
+    }
+    each.add(0, single);
+    groups.add(0, run);
+    EXPECT_TRUE(each == groups);
+    EXPECT_EQ(run.samples(), std::uint32_t(PixelRun::kMost));
+}
+
 /// Runs of samples leave the very bits that samples one by one leave, up to the largest run of the largest values.
 TEST(Film, RunsChangeNoBit) {
     Film each({0, 0, 1, 1}, 1, 1), runs({0, 0, 1, 1}, 1, 1);

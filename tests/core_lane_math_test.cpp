@@ -89,10 +89,14 @@ TEST(Lanes, PackingKeepsTheOrderOfTheLanes) {
     const Lanes8u value = laneIndices<Lanes8f>() * Lanes8u(10u);
     for (unsigned keep = 0; keep < 256; ++keep) {
         std::uint32_t out[8] = {};
+        std::uint16_t narrow[8] = {};
         storePacked(out, value, keep);
+        storePackedIndices(narrow, value + Lanes8u(65000u), keep);
         int n = 0;
         for (std::uint32_t k = 0; k < 8; ++k) {
-            if (keep >> k & 1u) { EXPECT_EQ(out[n++], 10 * k); }
+            if (!(keep >> k & 1u)) continue;
+            EXPECT_EQ(narrow[n], 65000 + 10 * k);
+            EXPECT_EQ(out[n++], 10 * k);
         }
     }
 }
@@ -105,6 +109,33 @@ TEST(Lanes, RowLoadsTranspose) {
     loadRows4(table, load<Lanes8f>(offset), out);
     for (int k = 0; k < 8; ++k)
         for (int c = 0; c < 4; ++c) EXPECT_EQ(lane(out[c], k), table[offset[k] + std::uint32_t(c)]);
+}
+
+TEST(Lanes, RowsOfEightComeBackPacked) {
+    Lanes8f column[8], back[8];
+    for (int c = 0; c < 8; ++c) column[c] = toFloat<Lanes8f>(laneIndices<Lanes8f>()) * Lanes8f(8.f) + Lanes8f(float(c));
+    for (unsigned keep = 0; keep < 256; ++keep) {
+        float rows[8 * 12];
+        storeRows8(rows, 12, column, keep);
+        loadRows8(rows, laneIndices<Lanes8f>() * Lanes8u(12u), back);
+        int n = 0;
+        for (int k = 0; k < 8; ++k) {
+            if (!(keep >> k & 1u)) continue;
+            for (int c = 0; c < 8; ++c) EXPECT_EQ(lane(back[c], n), float(8 * k + c));
+            ++n;
+        }
+    }
+}
+
+TEST(Lanes, RowStoresScatter) {
+    float table[64] = {};
+    std::uint32_t offset[8] = {0, 12, 60, 4, 28, 40, 20, 52};
+    Lanes8f in[4];
+    for (int c = 0; c < 4; ++c) in[c] = toFloat<Lanes8f>(laneIndices<Lanes8f>()) * Lanes8f(4.f) + Lanes8f(float(c + 1));
+    scatterRows4(table, load<Lanes8f>(offset), in);
+    for (int k = 0; k < 8; ++k)
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(table[offset[k] + std::uint32_t(c)], float(4 * k + c + 1));
+    EXPECT_EQ(table[8], 0.f);
 }
 
 TEST(Lanes, SelectAndMasks) {

@@ -10,9 +10,9 @@
 
 #include "core/film/aov.h"
 #include "core/film/exact_sum.h"
+#include "core/film/pixel_run.h"
 #include "core/math/spectrum.h"
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,42 +33,6 @@ struct PixelSquares {
     friend bool operator==(const PixelSquares&, const PixelSquares&) = default;
 };
 inline constexpr std::uint64_t kSaturated = ~std::uint64_t(0);
-
-/// Samples of one pixel on their way to a film without further planes: values of everyday size, whose sums fit into 64 bits
-/// exactly, are summed here at a third of the cost. At most kMost samples; a plain value.
-class PixelRun {
-public:
-    static constexpr int kMost = 4096;
-
-    /// As Film::add; false, and nothing is done, where the value is not of everyday size.
-    bool add(const Spectrum<float>& value, float sign, bool hit) noexcept {
-        const float channel[3] = {value.r, value.g, value.b};
-        for (float v : channel)
-            if (!isEveryday(v)) return false;
-        for (int c = 0; c < 3; ++c) {
-            const double v = double(channel[c]);
-            values_[c] += std::int64_t(v * 0x1p40);
-            squares_[c] += std::uint64_t(std::int64_t(v * v * 0x1p40));
-        }
-        ++samples_;
-        covered_ += hit ? (sign < 0.f ? -1 : 1) : 0;
-        return true;
-    }
-
-private:
-    friend class Film;
-    /// 0, or at least 2^-17, which has no bits below 2^-40, and below 2^5, of which kMost squares stay below 2^62.
-    static bool isEveryday(float v) {
-        constexpr std::uint32_t kLeast = std::bit_cast<std::uint32_t>(0x1p-17f), kEnd = std::bit_cast<std::uint32_t>(0x1p5f);
-        const std::uint32_t magnitude = floatBits(v) & 0x7FFFFFFFu;
-        return magnitude == 0 || magnitude - kLeast < kEnd - kLeast;
-    }
-
-    std::int64_t values_[3] = {0, 0, 0};      ///< in units of 2^-40
-    std::uint64_t squares_[3] = {0, 0, 0};    ///< as PixelSquares
-    std::uint32_t samples_ = 0;
-    std::int32_t covered_ = 0;
-};
 
 struct CropWindow {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;   ///< pixels of the whole picture; upper ends exclusive
@@ -115,11 +79,11 @@ public:
     void add(std::size_t pixel, const PixelRun& run) noexcept {
         PixelSums& p = sums_[pixel];
         PixelSquares& s = squares_[pixel];
-        p.samples += run.samples_;
-        p.covered += run.covered_;
+        p.samples += run.samples();
+        p.covered += run.covered();
         for (int c = 0; c < 3; ++c) {
-            p.value[c].add(__int128(run.values_[c]) << 24);
-            addSquare(s.value[c], run.squares_[c]);
+            p.value[c].add(__int128(run.value(c)) << 24);
+            addSquare(s.value[c], run.squares(c));
         }
     }
 

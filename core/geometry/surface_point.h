@@ -47,7 +47,7 @@ Vec3<F> offsetOrigin(const Vec3<F>& p, const Vec3<F>& error, const Vec3<F>& ng, 
 namespace detail {
 
 template <class F>
-Vec3<F> loadVertex(const float* table, const UInt<F>& row) {
+[[gnu::always_inline]] inline Vec3<F> loadVertex(const float* table, const UInt<F>& row) {
     F r[4];
     loadRows4(table, row * UInt<F>(3u), r);
     return {r[0], r[1], r[2]};
@@ -94,7 +94,7 @@ Affine<F> instanceMatrix(const Geometry& g, const Hit<F>& hit, const Mask<F>& in
 /// The unit vector along v, whose square may be beyond the range of floats (normals grow and shrink with the square of a
 /// scale). Of usual vectors it is normalize().
 template <class F>
-Vec3<F> unitNormal(const Vec3<F>& v) {
+[[gnu::always_inline]] inline Vec3<F> unitNormal(const Vec3<F>& v) {
     const F squared = dot(v, v);
     const Mask<F> usual = (squared > F(1e-30f)) & (squared < F(1e30f));
     if (all(usual)) [[likely]] return v * (F(1.f) / sqrt(squared));
@@ -124,7 +124,7 @@ F roundingInside(const Affine<F>& place, F coordinate) {
 
 /// `place`: of instanced lanes the matrix from here to the world.
 template <class F>
-void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh,
+[[gnu::always_inline]] inline void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh,
                  const Affine<F>& place, const Mask<F>& instanced) {
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
     const TriangleCorners<F> corners(g.indices.data(), select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));

@@ -326,12 +326,17 @@ inline void scatter(std::uint32_t* base, const Lanes8u& i, const Lanes8u& x) {
     for (int k = 0; k < 8; ++k) base[i.v[k]] = x.v[k];
 }
 
+/// Asks for the line of memory of base[i], which need not be there.
+inline void prefetch(const std::uint32_t* base, std::uint32_t i) {
+    _mm_prefetch(reinterpret_cast<const char*>(base) + std::size_t(i) * sizeof *base, _MM_HINT_T0);
+}
+
 /// Four consecutive floats at base + offset of every lane, as four lane values (row loads and a transpose: cheaper than
 /// gathers). The 16 bytes must be readable.
 inline void loadRows4(const float* base, std::uint32_t offset, float out[4]) {
     for (int k = 0; k < 4; ++k) out[k] = base[offset + std::uint32_t(k)];
 }
-inline void loadRows4(const float* base, const Lanes8u& offset, Lanes8f out[4]) {
+[[gnu::always_inline]] inline void loadRows4(const float* base, const Lanes8u& offset, Lanes8f out[4]) {
     alignas(32) std::uint32_t o[8];
     store(o, offset);
     const auto row = [&](int a) {
@@ -340,30 +345,46 @@ inline void loadRows4(const float* base, const Lanes8u& offset, Lanes8f out[4]) 
     const __m256 r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
     const __m256 t0 = _mm256_unpacklo_ps(r0, r1), t1 = _mm256_unpackhi_ps(r0, r1);
     const __m256 t2 = _mm256_unpacklo_ps(r2, r3), t3 = _mm256_unpackhi_ps(r2, r3);
-    out[0] = Lanes8f(detail::V8f(_mm256_shuffle_ps(t0, t2, 0x44)));
-    out[1] = Lanes8f(detail::V8f(_mm256_shuffle_ps(t0, t2, 0xEE)));
-    out[2] = Lanes8f(detail::V8f(_mm256_shuffle_ps(t1, t3, 0x44)));
-    out[3] = Lanes8f(detail::V8f(_mm256_shuffle_ps(t1, t3, 0xEE)));
+    out[0].v = detail::V8f(_mm256_shuffle_ps(t0, t2, 0x44));
+    out[1].v = detail::V8f(_mm256_shuffle_ps(t0, t2, 0xEE));
+    out[2].v = detail::V8f(_mm256_shuffle_ps(t1, t3, 0x44));
+    out[3].v = detail::V8f(_mm256_shuffle_ps(t1, t3, 0xEE));
+}
+
+/// Four lane values as four consecutive floats at base + offset of every lane.
+inline void scatterRows4(float* base, std::uint32_t offset, const float in[4]) {
+    for (int k = 0; k < 4; ++k) base[offset + std::uint32_t(k)] = in[k];
+}
+[[gnu::always_inline]] inline void scatterRows4(float* base, const Lanes8u& offset, const Lanes8f in[4]) {
+    alignas(32) std::uint32_t o[8];
+    store(o, offset);
+    const __m256 a = __m256(in[0].v), b = __m256(in[1].v), c = __m256(in[2].v), d = __m256(in[3].v);
+    const __m256 t0 = _mm256_unpacklo_ps(a, b), t1 = _mm256_unpackhi_ps(a, b);
+    const __m256 t2 = _mm256_unpacklo_ps(c, d), t3 = _mm256_unpackhi_ps(c, d);
+    const auto rows = [&](int k, __m256 both) {
+        _mm_storeu_ps(base + o[k], _mm256_castps256_ps128(both));
+        _mm_storeu_ps(base + o[k + 4], _mm256_extractf128_ps(both, 1));
+    };
+    rows(0, _mm256_shuffle_ps(t0, t2, 0x44)), rows(1, _mm256_shuffle_ps(t0, t2, 0xEE));
+    rows(2, _mm256_shuffle_ps(t1, t3, 0x44)), rows(3, _mm256_shuffle_ps(t1, t3, 0xEE));
 }
 
 namespace detail {
-/// Rows become columns.
-[[gnu::always_inline]] inline void transpose8(const __m256 r[8], __m256 out[8]) {
-    __m256 t[8], s[8];
-    for (int i = 0; i < 4; ++i) {
-        t[2 * i] = _mm256_unpacklo_ps(r[2 * i], r[2 * i + 1]);
-        t[2 * i + 1] = _mm256_unpackhi_ps(r[2 * i], r[2 * i + 1]);
-    }
-    for (int i = 0; i < 2; ++i) {
-        s[4 * i] = _mm256_shuffle_ps(t[4 * i], t[4 * i + 2], 0x44);
-        s[4 * i + 1] = _mm256_shuffle_ps(t[4 * i], t[4 * i + 2], 0xEE);
-        s[4 * i + 2] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0x44);
-        s[4 * i + 3] = _mm256_shuffle_ps(t[4 * i + 1], t[4 * i + 3], 0xEE);
-    }
-    for (int i = 0; i < 4; ++i) {
-        out[i] = _mm256_permute2f128_ps(s[i], s[i + 4], 0x20);
-        out[i + 4] = _mm256_permute2f128_ps(s[i], s[i + 4], 0x31);
-    }
+/// Rows become columns. Spelt out, as is what follows: arrays that a loop runs over stay in memory (GCC 12).
+[[gnu::always_inline]] inline void transpose8(__m256& a, __m256& b, __m256& c, __m256& d, __m256& e, __m256& f,
+                                              __m256& g, __m256& h) {
+    const __m256 ab0 = _mm256_unpacklo_ps(a, b), ab1 = _mm256_unpackhi_ps(a, b);
+    const __m256 cd0 = _mm256_unpacklo_ps(c, d), cd1 = _mm256_unpackhi_ps(c, d);
+    const __m256 ef0 = _mm256_unpacklo_ps(e, f), ef1 = _mm256_unpackhi_ps(e, f);
+    const __m256 gh0 = _mm256_unpacklo_ps(g, h), gh1 = _mm256_unpackhi_ps(g, h);
+    const __m256 l0 = _mm256_shuffle_ps(ab0, cd0, 0x44), l1 = _mm256_shuffle_ps(ab0, cd0, 0xEE);
+    const __m256 l2 = _mm256_shuffle_ps(ab1, cd1, 0x44), l3 = _mm256_shuffle_ps(ab1, cd1, 0xEE);
+    const __m256 h0 = _mm256_shuffle_ps(ef0, gh0, 0x44), h1 = _mm256_shuffle_ps(ef0, gh0, 0xEE);
+    const __m256 h2 = _mm256_shuffle_ps(ef1, gh1, 0x44), h3 = _mm256_shuffle_ps(ef1, gh1, 0xEE);
+    a = _mm256_permute2f128_ps(l0, h0, 0x20), b = _mm256_permute2f128_ps(l1, h1, 0x20);
+    c = _mm256_permute2f128_ps(l2, h2, 0x20), d = _mm256_permute2f128_ps(l3, h3, 0x20);
+    e = _mm256_permute2f128_ps(l0, h0, 0x31), f = _mm256_permute2f128_ps(l1, h1, 0x31);
+    g = _mm256_permute2f128_ps(l2, h2, 0x31), h = _mm256_permute2f128_ps(l3, h3, 0x31);
 }
 }  // namespace detail
 
@@ -374,10 +395,11 @@ inline void loadRows8(const float* base, std::uint32_t offset, float out[8]) {
 [[gnu::always_inline]] inline void loadRows8(const float* base, const Lanes8u& offset, Lanes8f out[8]) {
     alignas(32) std::uint32_t o[8];
     store(o, offset);
-    __m256 r[8], c[8];
-    for (int i = 0; i < 8; ++i) r[i] = _mm256_loadu_ps(base + o[i]);
-    detail::transpose8(r, c);
-    for (int i = 0; i < 8; ++i) out[i] = Lanes8f(detail::V8f(c[i]));
+    const auto row = [&](int k) { return _mm256_loadu_ps(base + o[k]); };
+    __m256 a = row(0), b = row(1), c = row(2), d = row(3), e = row(4), f = row(5), g = row(6), h = row(7);
+    detail::transpose8(a, b, c, d, e, f, g, h);
+    out[0].v = detail::V8f(a), out[1].v = detail::V8f(b), out[2].v = detail::V8f(c), out[3].v = detail::V8f(d);
+    out[4].v = detail::V8f(e), out[5].v = detail::V8f(f), out[6].v = detail::V8f(g), out[7].v = detail::V8f(h);
 }
 namespace detail {
 /// For each 8-bit mask, the permutation that moves its set lanes to the front, in order.
@@ -404,10 +426,11 @@ inline void storeRows8(float* p, std::uint32_t, const float in[8], unsigned keep
 [[gnu::always_inline]] inline void storeRows8(float* p, std::uint32_t stride, const Lanes8f in[8], unsigned keep) {
     // Packed before the transpose, which needs no branch: how many lanes go on is hard to predict.
     const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(detail::kCompress.index[keep]));
-    __m256 c[8], r[8];
-    for (int i = 0; i < 8; ++i) c[i] = _mm256_permutevar8x32_ps(__m256(in[i].v), order);
-    detail::transpose8(c, r);
-    for (int i = 0; i < 8; ++i) _mm256_storeu_ps(p + std::uint32_t(i) * stride, r[i]);
+    const auto pack = [&](int i) { return _mm256_permutevar8x32_ps(__m256(in[i].v), order); };
+    __m256 a = pack(0), b = pack(1), c = pack(2), d = pack(3), e = pack(4), f = pack(5), g = pack(6), h = pack(7);
+    detail::transpose8(a, b, c, d, e, f, g, h);
+    const auto row = [&](std::uint32_t k, __m256 r) { _mm256_storeu_ps(p + k * stride, r); };
+    row(0, a), row(1, b), row(2, c), row(3, d), row(4, e), row(5, f), row(6, g), row(7, h);
 }
 
 /// Stores the lanes of `keep` packed at p and returns nothing; room for all lanes must be there (spare lanes hold junk).
@@ -420,6 +443,15 @@ inline void storePacked(float* p, Lanes8f x, unsigned keep) {
 inline void storePacked(std::uint32_t* p, Lanes8u x, unsigned keep) {
     const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(detail::kCompress.index[keep]));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permutevar8x32_epi32(__m256i(x.v), order));
+}
+
+/// storePacked in 16 bits, for numbers below 2^16.
+inline void storePackedIndices(std::uint16_t* p, std::uint32_t x, unsigned keep) { if (keep) *p = std::uint16_t(x); }
+inline void storePackedIndices(std::uint16_t* p, Lanes8u x, unsigned keep) {
+    const __m256i order = _mm256_load_si256(reinterpret_cast<const __m256i*>(detail::kCompress.index[keep]));
+    const __m256i packed = _mm256_permutevar8x32_epi32(__m256i(x.v), order);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(p),
+                     _mm_packus_epi32(_mm256_castsi256_si128(packed), _mm256_extracti128_si256(packed, 1)));
 }
 
 /// Table of eight entries looked up by the low three bits of each lane (one instruction when wide).

@@ -24,6 +24,13 @@ public:
             first_ = index;
         }
     }
+    /// All lanes read that row.
+    static Records ofRow(const T* base, std::uint32_t row) {
+        Records r(base);
+        r.index_ = UInt<F>(row);
+        r.first_ = row;
+        return r;
+    }
     const UInt<F>& index() const { return index_; }
     /// True where all lanes read one row: first() is then that row.
     bool shared() const { return shared_; }
@@ -51,6 +58,7 @@ public:
     }
 
 private:
+    explicit Records(const T* base) : base_(base) {}
     template <class R, class W>
     R read(const W* firstRow, W shared) const {
         if (shared_) return R(shared);
