@@ -124,8 +124,9 @@ F roundingInside(const Affine<F>& place, F coordinate) {
 
 /// `place`: of instanced lanes the matrix from here to the world.
 template <class F>
-[[gnu::always_inline]] inline void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape, const Hit<F>& hit, const Mask<F>& isMesh,
-                 const Affine<F>& place, const Mask<F>& instanced) {
+[[gnu::always_inline]] inline void meshSurface(LocalSurface<F>& s, const Geometry& g, const ShapeLanes<F>& shape,
+                                               const Hit<F>& hit, const Mask<F>& isMesh, const Affine<F>& place,
+                                               const Mask<F>& instanced) {
     // Lanes that are no mesh read triangle 0 of the table and are thrown away by the caller.
     const TriangleCorners<F> corners(g.indices.data(), select(isMesh, shape.first + hit.primitive, UInt<F>(0u)));
     Vec3<F> at[3];

@@ -317,11 +317,7 @@ inline Lanes8f gather(const float* base, Lanes8u i) {
 inline Lanes8u gather(const std::uint32_t* base, Lanes8u i) {
     return Lanes8u(detail::V8u(_mm256_i32gather_epi32(reinterpret_cast<const int*>(base), __m256i(i.v), 4)));
 }
-inline void scatter(float* base, std::uint32_t i, float x) { base[i] = x; }
 inline void scatter(std::uint32_t* base, std::uint32_t i, std::uint32_t x) { base[i] = x; }
-inline void scatter(float* base, const Lanes8u& i, const Lanes8f& x) {
-    for (int k = 0; k < 8; ++k) base[i.v[k]] = x.v[k];
-}
 inline void scatter(std::uint32_t* base, const Lanes8u& i, const Lanes8u& x) {
     for (int k = 0; k < 8; ++k) base[i.v[k]] = x.v[k];
 }
