@@ -399,10 +399,8 @@ private:
         store(p.directionX, row[4]);
         store(p.directionY, row[5]);
         store(p.directionZ, row[6]);
-        if (scene_.hasMotion) {
-            const UInt<F> slot = select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u));
-            store(p.time, gather(batch_.slots.rows[0] + 6, slot * UInt<F>(SlotBuffer::kStride)));
-        }
+        if (scene_.hasMotion)
+            store(p.time, timeOf<F>(batch_.slots, select(firstLanes<F>(n), floatBits(row[7]), UInt<F>(0u))));
         store(p.far, far);
     }
 

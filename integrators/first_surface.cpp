@@ -76,7 +76,7 @@ void recordFirstSurface(const Scene& scene, const SlotBuffer& slots, const RayGr
     const unsigned first = bits(Mask<F>(g.live & (g.depth == UInt<F>(0u))));
     if (!first) return;
     const auto at = dispatch(MaterialTypes{}, tag, [&]<class M>() { return shadedPoint<F, M>(scene, g, hit, material); });
-    const F time = gather(slots.rows[0] + 6, g.slot * UInt<F>(SlotBuffer::kStride));
+    const F time = timeOf<F>(slots, g.slot);
     const CameraSpace<F> camera = scene.camera.space(time);
 
     AovLanes<F> lanes{};

@@ -46,6 +46,12 @@ struct SlotBuffer {
     alignas(64) std::uint32_t normal[kBatchCapacity];                            ///< packed, of the last scattering; where lights are picked by place
 };
 
+/// When the slots' camera rays left, as CameraRay has it.
+template <class F>
+F timeOf(const SlotBuffer& s, const UInt<F>& slot) {
+    return gather(s.rows[0] + 6, slot * UInt<F>(SlotBuffer::kStride));
+}
+
 struct PathBatch {
     RayBuffer rays[2];
     HitBuffer hits;
